@@ -67,8 +67,8 @@ Interval efficiencyBy(const SceneBench& bench, const std::vector<double>& second
 {
     const BenchPoint& last = bench.points.back();
     if (computeMedian(seconds) <= 0.0) {
-        constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-        return {kUnknown, kUnknown, kUnknown};
+        constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+        return {kMissing, kMissing, kMissing};
     }
     return bootstrap({bench.seeds.size()}, [&](const Draw& draw) {
         const double error = meanOver(last.relMse, draw[0]) - bench.floor.relMse;

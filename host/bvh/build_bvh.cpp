@@ -14,15 +14,15 @@ namespace {
 // The largest subtree that one thread builds alone, in primitives: it fits the cache of a core.
 constexpr std::uint32_t kMaxPerThread = 8192;
 
-struct Task {
+struct BuildTask {
     std::uint32_t node, begin, end;
     std::uint32_t depth;  // inner nodes above
     NodeBounds bounds;
 };
 
 // A node near the root. If it has few primitives, its whole subtree is one part.
-struct Part {
-    Task task;
+struct BuildPart {
+    BuildTask task;
     std::uint32_t children = 0;  // index of the first of two child parts; 0: `nodes` holds the whole subtree
     std::vector<BvhNode> nodes;
     std::uint32_t depth = 0;  // of the deepest leaf
@@ -76,7 +76,7 @@ private:
         return bounds.front();
     }
 
-    NodeSplit split(const Task& task)
+    NodeSplit split(const BuildTask& task)
     {
         const std::size_t count = task.end - task.begin;
         return splitNode({&references_[task.begin], count}, {&scratch_[task.begin], count}, task.bounds, task.depth, rule_, leafSize_);
@@ -88,11 +88,11 @@ private:
         for (std::size_t begin = 0, end = 1; begin < end; begin = end, end = parts_.size()) {
             std::vector<NodeSplit> splits(end - begin);
             parallelFor(splits.size(), threads_, [&](std::size_t i) {
-                const Task& task = parts_[begin + i].task;
+                const BuildTask& task = parts_[begin + i].task;
                 splits[i] = task.end - task.begin > kMaxPerThread ? split(task) : NodeSplit{};
             });
             for (std::size_t i = begin; i < end; ++i) {
-                const Task task = parts_[i].task;
+                const BuildTask task = parts_[i].task;
                 const auto& [left, sides] = splits[i - begin];
                 if (left > 0) {
                     parts_[i].children = static_cast<std::uint32_t>(parts_.size());
@@ -103,14 +103,14 @@ private:
         }
     }
 
-    void buildBelow(Part& part)
+    void buildBelow(BuildPart& part)
     {
         std::vector<BvhNode>& nodes = part.nodes;
         nodes.reserve(2 * (part.task.end - part.task.begin));
         nodes.emplace_back();
-        std::vector<Task> tasks{part.task};
+        std::vector<BuildTask> tasks{part.task};
         while (!tasks.empty()) {
-            const Task task = tasks.back();
+            const BuildTask task = tasks.back();
             tasks.pop_back();
             const auto& [left, sides] = split(task);
             if (left == 0) {
@@ -135,7 +135,7 @@ private:
         while (!places.empty()) {
             const auto [index, node] = places.back();
             places.pop_back();
-            const Part& part = parts_[index];
+            const BuildPart& part = parts_[index];
             const auto first = static_cast<std::uint32_t>(bvh.nodes.size());
             if (part.children != 0) {
                 bvh.nodes[node] = {part.task.bounds.box.box(), first, 0};
@@ -163,7 +163,7 @@ private:
     const unsigned threads_;
     const std::uint32_t leafSize_;
     const std::unique_ptr<Reference[]> references_, scratch_;
-    std::vector<Part> parts_;
+    std::vector<BuildPart> parts_;
 };
 
 }  // namespace

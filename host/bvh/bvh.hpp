@@ -3,7 +3,9 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace glim {
@@ -14,6 +16,20 @@ struct Box {
     glm::vec3 lo;
     glm::vec3 hi;
 };
+
+inline constexpr Box kEmptyBox{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(-std::numeric_limits<float>::infinity())};
+
+inline Box unite(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
+
+// To the next float on every side.
+inline Box roundOutwards(Box box)
+{
+    for (int k = 0; k < 3; ++k) {
+        box.lo[k] = std::nextafter(box.lo[k], kEmptyBox.hi[k]);
+        box.hi[k] = std::nextafter(box.hi[k], kEmptyBox.lo[k]);
+    }
+    return box;
+}
 
 // Each bound is halved first, because their sum could overflow.
 inline glm::vec3 computeCentre(const Box& box) { return 0.5F * box.lo + 0.5F * box.hi; }

@@ -93,7 +93,7 @@ std::array<std::uint8_t, kBvhWidth> findPlaces(const Bvh& bvh, std::uint32_t nod
 }
 
 // A wide node still to be built: its binary node, and its index.
-struct Task {
+struct CollapseTask {
     std::uint32_t binary, wide, depth;
 };
 
@@ -110,14 +110,14 @@ public:
     }
 
     // Returns the subtrees of at most `least` primitives, which are still to be built.
-    std::vector<Task> collapse(std::uint32_t binary, std::uint32_t depth, std::uint32_t least)
+    std::vector<CollapseTask> collapse(std::uint32_t binary, std::uint32_t depth, std::uint32_t least)
     {
-        std::vector<Task> left;
+        std::vector<CollapseTask> left;
         wide_.nodes.reserve(subtrees_[binary].count / 6);  // meshes need about as many
         wide_.nodes.emplace_back();
         tasks_ = {{binary, 0, depth}};
         while (!tasks_.empty()) {
-            const Task task = tasks_.back();
+            const CollapseTask task = tasks_.back();
             tasks_.pop_back();
             if (subtrees_[task.binary].count > least) {
                 addNode(task);
@@ -133,7 +133,7 @@ public:
 private:
     double shareOf(const Box& box) const { return rootArea_ > 0.0 ? computeHalfArea(box) / rootArea_ : 1.0; }
 
-    void addNode(const Task& task)
+    void addNode(const CollapseTask& task)
     {
         const Roots roots = childrenOf(bvh_, subtrees_, task.binary, task.depth);
         const auto places = findPlaces(bvh_, task.binary, roots);
@@ -182,7 +182,7 @@ private:
     const std::uint32_t firstInstance_;
     const double rootArea_;
     WideBvh wide_;
-    std::vector<Task> tasks_;
+    std::vector<CollapseTask> tasks_;
 };
 
 // The first node of `part` becomes node `at` of the tree.
@@ -209,10 +209,10 @@ void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
 
 WideBvh collapseBvh(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance)
 {
-    constexpr std::uint32_t kMaxPerThread = 8192;  // one thread builds a subtree of at most this many primitives
+    constexpr std::uint32_t kMaxPrimitivesPerThread = 8192;  // one thread builds a subtree of at most this many primitives
     const std::vector<Subtree> subtrees = examineSubtrees(bvh, threads, firstInstance);
     Collapser top(bvh, subtrees, firstInstance);
-    const std::vector<Task> tasks = top.collapse(0, 1, kMaxPerThread);
+    const std::vector<CollapseTask> tasks = top.collapse(0, 1, kMaxPrimitivesPerThread);
     std::vector<Collapser> parts(tasks.size(), Collapser(bvh, subtrees, firstInstance));
     parallelFor(tasks.size(), threads, [&](std::size_t i) { parts[i].collapse(tasks[i].binary, tasks[i].depth, 0); });
     WideBvh wide = std::move(top.result());

@@ -99,8 +99,8 @@ public:
 private:
     void collectParts(const Part& part)
     {
-        constexpr std::uint32_t kMaxPerThread = 16384;  // one thread examines a subtree of at most this many nodes
-        if (part.end - part.begin <= kMaxPerThread) {
+        constexpr std::uint32_t kMaxNodesPerThread = 16384;  // one thread examines a subtree of at most this many nodes
+        if (part.end - part.begin <= kMaxNodesPerThread) {
             parts_.push_back(part);
             return;
         }

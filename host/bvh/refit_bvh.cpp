@@ -2,18 +2,7 @@
 
 #include "host/bvh/surface_area.hpp"
 
-#include <limits>
-
 namespace glim {
-namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr Box kEmptyBox{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-
-Box unite(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
-
-}  // namespace
-
 std::optional<WideBvh> refitBvh(WideBvh bvh, std::span<const Box> boxes, double maxCost)
 {
     const std::size_t nodeCount = bvh.meshTrees.empty() ? bvh.nodes.size() : bvh.meshTrees.front().firstNode;

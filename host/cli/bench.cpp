@@ -195,7 +195,7 @@ std::string whyNotByTurns(const SceneBench& baseline, const BenchJob& job, const
 }
 
 // Measures one scene into job.bench and, by turns, `other` into its own. False if the user stopped it.
-bool measure(Device& device, const BenchOptions& options, BenchJob& job, std::optional<BenchJob>& other, const InterruptWatch& watch)
+bool measurePair(Device& device, const BenchOptions& options, BenchJob& job, std::optional<BenchJob>& other, const InterruptWatch& watch)
 {
     SceneBench& bench = job.bench;
     BenchProgress progress(options.progress, watch, std::uint64_t{bench.width} * bench.height);
@@ -245,7 +245,7 @@ bool measure(Device& device, const BenchOptions& options, BenchJob& job, std::op
     return true;
 }
 
-void checkTargets(const BenchOptions& options)
+void checkBenchTargets(const BenchOptions& options)
 {
     std::vector<std::filesystem::path> inputs = options.scenes;
     for (const auto& input : {options.reference, options.against}) {
@@ -267,7 +267,7 @@ ExitCode runBench(const BenchOptions& options)
     if (options.kernels) {
         return runBenchKernels(options);
     }
-    checkTargets(options);
+    checkBenchTargets(options);
     const std::vector<SceneBench> baselines = options.against ? readBenches(*options.against) : std::vector<SceneBench>();
     const InterruptWatch watch;
     const VulkanInstance instance;
@@ -287,7 +287,7 @@ ExitCode runBench(const BenchOptions& options)
                 other.reset();
             }
         }
-        if (watch.signal() != 0 || !measure(device, options, job, other, watch)) {
+        if (watch.signal() != 0 || !measurePair(device, options, job, other, watch)) {
             return finish(watch.signal(), "no figures are written");
         }
         printBench(job.bench);

@@ -34,8 +34,8 @@ PreparedScene prepareHills(SplitRule split)
     return prepared;
 }
 
-Json toJson(const std::string& scene, const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
-            const std::vector<KernelRate>& rates, const PictureRate& picture)
+Json kernelTable(const std::string& scene, const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
+                 const std::vector<KernelRate>& rates, const PictureRate& picture)
 {
     Json table = Json::array();
     for (const KernelRate& rate : rates) {
@@ -115,8 +115,8 @@ private:
 };
 
 // False if the user stopped it.
-bool measure(Device& device, const BenchOptions& options, const std::string& name, const PreparedScene& prepared,
-             const InterruptWatch& watch, Json& tables)
+bool measureKernels(Device& device, const BenchOptions& options, const std::string& name, const PreparedScene& prepared,
+                    const InterruptWatch& watch, Json& tables)
 {
     const Camera camera = makeCamera(prepared.scene, options);
     const glm::uvec2 size = options.size.value_or(defaultSize(camera));
@@ -138,7 +138,7 @@ bool measure(Device& device, const BenchOptions& options, const std::string& nam
     }
     print(name, prepared, device.description(), rates);
     print(*picture);
-    tables.append(toJson(name, prepared, settings, device.description(), rates, *picture));
+    tables.append(kernelTable(name, prepared, settings, device.description(), rates, *picture));
     return true;
 }
 
@@ -154,7 +154,7 @@ ExitCode runBenchKernels(const BenchOptions& options)
     Device device(instance, options.device);
     Json tables = Json::array();
     const auto finished = [&](const std::string& name, const PreparedScene& prepared) {
-        return watch.signal() == 0 && measure(device, options, name, prepared, watch, tables);
+        return watch.signal() == 0 && measureKernels(device, options, name, prepared, watch, tables);
     };
     for (const std::filesystem::path& scene : options.scenes) {
         if (!finished(scene.string(), prepareScene(scene, makeLoadOptions(options), options.split))) {

@@ -46,7 +46,7 @@ Relation relate(const CompareOptions& options, const Image& image, const Image& 
                                                                   : Relation::Independent;
 }
 
-void checkTargets(const CompareOptions& options)
+void checkCompareTargets(const CompareOptions& options)
 {
     const std::vector<std::filesystem::path> inputs{options.picture, options.reference, options.variance.value_or("")};
     if (options.difference) {
@@ -73,7 +73,7 @@ void writeDifferences(const CompareOptions& options, const Picture& picture, con
 
 void runCompare(const CompareOptions& options)
 {
-    checkTargets(options);
+    checkCompareTargets(options);
     const Image image = readExr(options.picture), referenceImage = readExr(options.reference);
     const Picture picture = makePicture(image, options.picture.string());
     Picture reference = makePicture(referenceImage, options.reference.string());

@@ -8,9 +8,9 @@
 namespace glim {
 namespace {
 
-std::uint64_t mebibytes(std::uint64_t bytes) { return bytes >> 20; }
+std::uint64_t inMebibytes(std::uint64_t bytes) { return bytes >> 20; }
 
-Json toJson(const DeviceDescription& d)
+Json describeDevice(const DeviceDescription& d)
 {
     return {{"name", d.name},
             {"driver", d.driver},
@@ -30,9 +30,9 @@ Json toJson(const DeviceDescription& d)
 void printDevice(std::size_t index, const DeviceDescription& d)
 {
     std::cout << index << "  " << d.name << "\n   " << d.kind << ", " << d.driver << "\n   subgroup " << d.subgroupSize << ", memory "
-              << mebibytes(d.memory) << " MiB, largest allocation " << mebibytes(d.maxAllocation) << " MiB\n   storage buffer "
-              << mebibytes(d.maxStorageBuffer) << " MiB (" << d.maxStorageBuffers << " per kernel), texel buffer "
-              << mebibytes(d.maxTexelElements * 16) << " MiB, workgroup " << d.maxWorkgroup << ", timestamps "
+              << inMebibytes(d.memory) << " MiB, largest allocation " << inMebibytes(d.maxAllocation) << " MiB\n   storage buffer "
+              << inMebibytes(d.maxStorageBuffer) << " MiB (" << d.maxStorageBuffers << " per kernel), texel buffer "
+              << inMebibytes(d.maxTexelElements * 16) << " MiB, workgroup " << d.maxWorkgroup << ", timestamps "
               << (d.nanosecondsPerTick > 0.0F ? "yes" : "no") << '\n';
     if (!d.missing.empty()) {
         std::cout << "   not usable: lacks " << d.missing << '\n';
@@ -49,7 +49,7 @@ void runDevices(bool json)
     Json list = Json::array();
     for (std::size_t i = 0; i < devices.size(); ++i) {
         if (json) {
-            list.append(toJson(devices[i]));
+            list.append(describeDevice(devices[i]));
         } else {
             printDevice(i, devices[i]);
         }

@@ -235,7 +235,7 @@ std::string threeDigits(double value)
     return text;
 }
 
-std::string pointText(const glm::dvec3& p)
+std::string shortPointText(const glm::dvec3& p)
 {
     char text[64];
     std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", p.x, p.y, p.z);
@@ -249,7 +249,7 @@ std::string coordinateText(double value, double size)
     return format("%.*g", static_cast<int>(std::clamp(digits, 1.0, 17.0)), value + 0.0);
 }
 
-std::string toText(const Bounds& bounds)
+std::string boundsText(const Bounds& bounds)
 {
     const glm::dvec3 sides = bounds.high - bounds.low;
     const double size = std::max({sides.x, sides.y, sides.z});
@@ -259,7 +259,7 @@ std::string toText(const Bounds& bounds)
     return corner(bounds.low) + " to " + corner(bounds.high) + " m";
 }
 
-std::string mebibytes(std::uint64_t bytes) { return threeDigits(static_cast<double>(bytes) / (1 << 20)) + " MiB"; }
+std::string mebibytesText(std::uint64_t bytes) { return threeDigits(static_cast<double>(bytes) / (1 << 20)) + " MiB"; }
 
 void printLooks(const PreparedScene& prepared)
 {
@@ -276,13 +276,14 @@ void printLooks(const PreparedScene& prepared)
         const TextureImage& image = prepared.scene.images[i];
         const std::uint64_t bytes = prepared.flat.imageBytes[i];
         std::cout << "  texture " << escaped(shortened(image.name)) << ", " << image.width << 'x' << image.height << ", "
-                  << (bytes > 0 ? mebibytes(bytes) : "of one colour") << '\n';
+                  << (bytes > 0 ? mebibytesText(bytes) : "of one colour") << '\n';
     }
     if (prepared.scene.environment) {
         const Environment& environment = *prepared.scene.environment;
         std::cout << "  environment: " << escaped(environment.source);
         if (environment.map) {
-            std::cout << ", " << environment.map->width << 'x' << environment.map->height << ", " << mebibytes(environmentBytes(prepared));
+            std::cout << ", " << environment.map->width << 'x' << environment.map->height << ", "
+                      << mebibytesText(environmentBytes(prepared));
         }
         std::cout << '\n';
     }
@@ -293,7 +294,7 @@ void printLooks(const PreparedScene& prepared)
     for (std::size_t i = 0; i < prepared.flat.media.size(); ++i) {
         const MediumData& medium = prepared.flat.media[i];
         std::cout << "  medium " << i + 1 << ": index " << threeDigits(static_cast<double>(medium.ior)) << ", absorption "
-                  << pointText(glm::dvec3(medium.absorption)) << " per metre" << (medium.spread > 0.0F ? ", dispersive" : "") << '\n';
+                  << shortPointText(glm::dvec3(medium.absorption)) << " per metre" << (medium.spread > 0.0F ? ", dispersive" : "") << '\n';
     }
 }
 
@@ -308,10 +309,10 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
                   << " (" << counted(instancing.triangles, "triangle") << ") " << (instancing.shared ? "share these" : "are flattened")
                   << ": " << instancing.reason << '\n';
     }
-    std::cout << "  bounds " << toText(computeBounds(prepared)) << '\n'
+    std::cout << "  bounds " << boundsText(computeBounds(prepared)) << '\n'
               << "  BVH: " << prepared.bvh.nodes.size() << " nodes, depth " << prepared.bvh.depth << ", surface-area cost "
               << threeDigits(static_cast<double>(prepared.bvh.cost)) << ", built in " << threeDigits(prepared.buildSeconds) << " s\n"
-              << "  on the device: " << mebibytes(sizeInBytes(prepared.flat)) << ", " << mebibytes(textureBytes(prepared.flat))
+              << "  on the device: " << mebibytesText(sizeInBytes(prepared.flat)) << ", " << mebibytesText(textureBytes(prepared.flat))
               << " of it textures\n  needs:";
     const char* separator = " ";
     for (const auto& [name, needed] : needsOf(getFeatures(prepared))) {

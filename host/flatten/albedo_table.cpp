@@ -11,7 +11,8 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+
 constexpr std::size_t kNodes = 32;
 
 double lambda(double cosine, double alpha)
@@ -29,10 +30,10 @@ glm::dvec2 integrateAlbedo(const GaussRule& rule, double cosine, double alpha)
     glm::dvec2 sum(0.0);
     for (std::size_t i = 0; i < kNodes; ++i) {
         // The half circles that face v and face away, each alike on both sides of its middle.
-        const double t = std::abs(rule.nodes[i]), middle = rule.nodes[i] < 0.0 ? kPi : 0.0;
-        const double phi = middle + kPi / 16.0 * t * (15.0 - 10.0 * t * t + 3.0 * t * t * t * t);
-        const double phiWeight = 15.0 / 16.0 * kPi * (1.0 - t * t) * (1.0 - t * t) * rule.weights[i];
-        const double horizon = 0.5 * (0.5 * kPi + std::atan2(sine * std::cos(phi), cosine));
+        const double t = std::abs(rule.nodes[i]), middle = rule.nodes[i] < 0.0 ? pi : 0.0;
+        const double phi = middle + pi / 16.0 * t * (15.0 - 10.0 * t * t + 3.0 * t * t * t * t);
+        const double phiWeight = 15.0 / 16.0 * pi * (1.0 - t * t) * (1.0 - t * t) * rule.weights[i];
+        const double horizon = 0.5 * (0.5 * pi + std::atan2(sine * std::cos(phi), cosine));
         const double end = std::atan2(std::sin(horizon), alpha * std::cos(horizon));
         for (std::size_t j = 0; j < kNodes; ++j) {
             const double s = 0.5 * (rule.nodes[j] + 1.0);
@@ -44,7 +45,7 @@ glm::dvec2 integrateAlbedo(const GaussRule& rule, double cosine, double alpha)
                 continue;
             }
             const double visible = vh / (cosine * hz * (1.0 + lambdaV + lambda(lz, alpha)));
-            const double value = 2.0 * weight * std::sin(beta) * std::cos(beta) / kPi * visible, schlick = fifthPower(1.0 - vh);
+            const double value = 2.0 * weight * std::sin(beta) * std::cos(beta) / pi * visible, schlick = fifthPower(1.0 - vh);
             sum += glm::dvec2(1.0 - schlick, schlick) * value;
         }
     }
@@ -68,7 +69,7 @@ std::vector<glm::dvec2> makeRow(const GaussRule& rule, std::size_t j)
 
 // 2 int f(cosine) cosine dcosine of the function that the row's bilinear look-up gives, exactly: linear in x between columns, and the
 // cosine is x^4.
-glm::dvec2 computeAverage(const std::vector<glm::dvec2>& row)
+glm::dvec2 averageOverCosines(const std::vector<glm::dvec2>& row)
 {
     glm::dvec2 sum(0.0);
     for (std::size_t i = 0; i + 1 < kAlbedoSize; ++i) {
@@ -97,12 +98,12 @@ double integrateSheen(const GaussRule& rule, double cosine, double alpha)
         const double masking = (1.0 + lambdaV + sheenLambda(z, alpha)) * 4.0 * cosine;
         double ring = 0.0;
         for (std::size_t j = 0; j < kNodes; ++j) {
-            const double y = 0.5 * (rule.nodes[j] + 1.0), phi = kPi * (1.0 - y * y);
+            const double y = 0.5 * (rule.nodes[j] + 1.0), phi = pi * (1.0 - y * y);
             const double hx = sine + r * std::cos(phi), hy = r * std::sin(phi), hz = cosine + z;
             const double sine2 = (hx * hx + hy * hy) / (hx * hx + hy * hy + hz * hz);
-            ring += std::pow(sine2, 0.5 / alpha) * 2.0 * kPi * 2.0 * y * 0.5 * rule.weights[j];
+            ring += std::pow(sine2, 0.5 / alpha) * 2.0 * pi * 2.0 * y * 0.5 * rule.weights[j];
         }
-        sum += ring * (2.0 + 1.0 / alpha) / (2.0 * kPi) / masking * 4.0 * x * x * x * 0.5 * rule.weights[i];
+        sum += ring * (2.0 + 1.0 / alpha) / (2.0 * pi) / masking * 4.0 * x * x * x * 0.5 * rule.weights[i];
     }
     return sum;
 }
@@ -140,7 +141,7 @@ std::vector<uvec4> makeAlbedoTable()
     std::vector<glm::dvec2> averages;
     for (const std::vector<glm::dvec2>& row : rows) {
         pushTexels(table, row);
-        averages.push_back(computeAverage(row));
+        averages.push_back(averageOverCosines(row));
     }
     pushTexels(table, averages);
     return table;

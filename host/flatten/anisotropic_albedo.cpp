@@ -12,11 +12,12 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+
 constexpr std::size_t kCosines = kAnisotropicCosines, kRatios = kAnisotropicRatios, kAlphas = kAnisotropicAlphas;
 
 // In the place of 0 at the ends of the table's axes: what the functions tend to.
-constexpr double kMinSeen = 1e-4, kMinRatio = 1e-3, kMinAlpha = 1e-3;
+constexpr double kMinSeen = 1e-4, kMinRatio = 1e-3, kMinAnisotropicAlpha = 1e-3;
 
 // Half circles of azimuths, as cosine, sine and weight, with more nodes at their ends, and nodes in (0, 1) with more at 0.
 struct Nodes {
@@ -24,8 +25,8 @@ struct Nodes {
     {
         const GaussRule azimuthRule(28), slopeRule(8);
         for (std::size_t i = 0; i < azimuthRule.nodes.size(); ++i) {
-            const double t = azimuthRule.nodes[i], phi = kPi / 16.0 * t * (15.0 - 10.0 * t * t + 3.0 * t * t * t * t);
-            const double weight = 15.0 / 16.0 * kPi * (1.0 - t * t) * (1.0 - t * t) * azimuthRule.weights[i];
+            const double t = azimuthRule.nodes[i], phi = pi / 16.0 * t * (15.0 - 10.0 * t * t + 3.0 * t * t * t * t);
+            const double weight = 15.0 / 16.0 * pi * (1.0 - t * t) * (1.0 - t * t) * azimuthRule.weights[i];
             azimuths.emplace_back(std::cos(phi), std::sin(phi), weight);
             azimuths.emplace_back(-std::cos(phi), -std::sin(phi), weight);
         }
@@ -41,7 +42,7 @@ struct Nodes {
 
 // a + b and b (lib/bsdf/multiple_scattering.glsl) of the direction v: as integrateAlbedo in albedo_table.cpp, with slopes alpha tan(beta)
 // at azimuths about that of the stretched v. In terms of w = tan(beta / 2) the integrand is rational but for roots.
-glm::dvec2 integrateAlbedo(const Nodes& nodes, const glm::dvec3& v, const glm::dvec2& alpha)
+glm::dvec2 integrateAnisotropicAlbedo(const Nodes& nodes, const glm::dvec3& v, const glm::dvec2& alpha)
 {
     const double facingLength = glm::length(alpha * glm::dvec2(v)), stretchedV = stretchedLength(v, alpha);
     const glm::dvec2 facing = facingLength > 0.0 ? alpha * glm::dvec2(v) / facingLength : glm::dvec2(1.0, 0.0);
@@ -65,7 +66,7 @@ glm::dvec2 integrateAlbedo(const Nodes& nodes, const glm::dvec3& v, const glm::d
             }
             // F G2 (v.h) / (v.z h.z) and sin(beta) cos(beta) / pi dbeta dphi
             const double visible = 2.0 * vh * l.z / (hz * (stretchedV * l.z + stretchedLength(l, alpha) * v.z));
-            const double measure = azimuth.z * end * node.y * 4.0 * w * rest / (kPi * whole * whole * whole);
+            const double measure = azimuth.z * end * node.y * 4.0 * w * rest / (pi * whole * whole * whole);
             sum += glm::dvec2(1.0, fifthPower(1.0 - std::min(vh, 1.0))) * (visible * measure);
         }
     }
@@ -84,7 +85,7 @@ glm::dvec2 entryOf(const Nodes& nodes, double seen, double narrow, double wide, 
     const double z2 = seen * seen * along * along / ((1.0 - seen) * (1.0 + seen) + seen * seen * along * along);
     const double sine = std::sqrt(1.0 - z2), z = std::sqrt(z2);
     const glm::dvec3 v(sine * std::sqrt(cos2), sine * std::sqrt(1.0 - cos2), z);
-    const glm::dvec2 albedo = integrateAlbedo(nodes, v, {alphaX, alphaY});
+    const glm::dvec2 albedo = integrateAnisotropicAlbedo(nodes, v, {alphaX, alphaY});
     return {rounded(albedo.x), rounded((1.0 - std::pow(albedo.y / albedo.x, 0.2)) * seen / z)};
 }
 
@@ -100,7 +101,7 @@ std::vector<glm::dvec2> makeEntries()
     parallelFor(kRatios * kRatios * kAlphas, std::thread::hardware_concurrency(), [&](std::size_t row) {
         const double narrow = std::max(share(row % kRatios, kRatios), kMinRatio);
         const double wide = std::max(share(row / kRatios % kRatios, kRatios), kMinRatio);
-        const double alpha = std::max(powerOfShare(row / (kRatios * kRatios), kAlphas), kMinAlpha);
+        const double alpha = std::max(powerOfShare(row / (kRatios * kRatios), kAlphas), kMinAnisotropicAlpha);
         for (std::size_t i = 0; i < kCosines; ++i) {
             entries[row * kCosines + i] = entryOf(nodes, std::max(powerOfShare(i, kCosines), kMinSeen), narrow, wide, alpha);
         }
@@ -136,15 +137,15 @@ glm::dvec2 lookUp(const std::vector<glm::dvec2>& entries, const glm::dvec3& w, c
 }
 
 // l and b (scene_types.h): of what kernels look up, so that what the microfacets lose in one direction comes back in all.
-glm::dvec2 computeAverage(const std::vector<glm::dvec2>& entries, const GaussRule& cosines, const GaussRule& azimuths, double alphaX,
-                          double ratio)
+glm::dvec2 averageOverDirections(const std::vector<glm::dvec2>& entries, const GaussRule& cosines, const GaussRule& azimuths, double alphaX,
+                                 double ratio)
 {
     const glm::dvec2 alpha(alphaX, ratio * alphaX);
     glm::dvec2 sum(0.0);
     for (std::size_t i = 0; i < cosines.nodes.size(); ++i) {
         const double x = 0.5 * (cosines.nodes[i] + 1.0), z = x * x * x * x, sine = std::sqrt((1.0 - z) * (1.0 + z));
         for (std::size_t j = 0; j < azimuths.nodes.size(); ++j) {
-            const double phi = 0.25 * kPi * (azimuths.nodes[j] + 1.0);
+            const double phi = 0.25 * pi * (azimuths.nodes[j] + 1.0);
             const glm::dvec2 albedo = lookUp(entries, {sine * std::cos(phi), sine * std::sin(phi), z}, alpha);
             // 2 z dz over [0, 1] and the mean over phi
             sum += glm::dvec2(1.0 - albedo.x, albedo.y) * (4.0 * x * x * x * z * cosines.weights[i] * 0.5 * azimuths.weights[j]);
@@ -160,7 +161,7 @@ std::vector<glm::dvec2> makeAverages(const std::vector<glm::dvec2>& entries)
     parallelFor(averages.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
         const double ratio = std::max(share(i % kAnisotropicAverageRatios, kAnisotropicAverageRatios), kMinRatio);
         const double root = share(i / kAnisotropicAverageRatios, kAnisotropicAverageAlphas);
-        averages[i] = computeAverage(entries, cosines, azimuths, std::max(root * root, kMinAlpha), ratio);
+        averages[i] = averageOverDirections(entries, cosines, azimuths, std::max(root * root, kMinAnisotropicAlpha), ratio);
     });
     return averages;
 }

@@ -8,13 +8,13 @@
 namespace glim {
 namespace {
 
-using Words = std::vector<std::pair<std::string, std::string>>;
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
 std::string pointText(const glm::dvec3& v) { return exactText(v.x) + "," + exactText(v.y) + "," + exactText(v.z); }
 
-Words wordsOf(const std::optional<Pose>& pose, const Lens& lens)
+OptionValues listOptions(const std::optional<Pose>& pose, const Lens& lens)
 {
-    Words words;
+    OptionValues words;
     if (pose) {
         words = {{"look-from", pointText(pose->from)}, {"look-at", pointText(pose->at)}, {"look-up", pointText(pose->up)}};
     }
@@ -28,7 +28,7 @@ Words wordsOf(const std::optional<Pose>& pose, const Lens& lens)
     return words;
 }
 
-std::string join(const Words& words, const char* before, const char* between)
+std::string join(const OptionValues& words, const char* before, const char* between)
 {
     std::string text;
     for (const auto& [name, value] : words) {
@@ -39,8 +39,8 @@ std::string join(const Words& words, const char* before, const char* between)
 
 }  // namespace
 
-std::string describeCamera(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " ", "="); }
+std::string describeCamera(const std::optional<Pose>& pose, const Lens& lens) { return join(listOptions(pose, lens), " ", "="); }
 
-std::string cameraOptions(const std::optional<Pose>& pose, const Lens& lens) { return join(wordsOf(pose, lens), " --", " "); }
+std::string cameraOptions(const std::optional<Pose>& pose, const Lens& lens) { return join(listOptions(pose, lens), " --", " "); }
 
 }  // namespace glim

@@ -11,18 +11,16 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // As kMinAlpha of shaders/lib/bsdf/ggx.glsl: below it a lobe is a delta.
-constexpr float kMinAlpha = 1e-3F;
+constexpr float kMinLobeAlpha = 1e-3F;
 // Above the largest difference of two indices that the kernels take for none (kMinEtaStep of lib/bsdf/ggx_transmission.glsl).
 constexpr float kSameIor = 2e-4F;
 // Of the versine of a spot that grazes a target, as in shaders/lib/caustic_target.glsl.
 constexpr double kSlack = 1e-6;
 // Targets grow by this share, for rounding.
-constexpr double kMargin = 1e-4;
-
-double strength(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
+constexpr double kTargetMargin = 1e-4;
 
 struct BoundingSphere {
     glm::dvec3 center{0.0};
@@ -48,7 +46,7 @@ BoundingSphere boundingSphere(std::span<const BoundingSphere> spheres)
 BoundingSphere computeBoundingSphere(const Sphere& sphere)
 {
     const double radius = static_cast<double>(sphere.radius);
-    return {sphere.center, radius, 4.0 * kPi * radius * radius};
+    return {sphere.center, radius, 4.0 * pi * radius * radius};
 }
 
 BoundingSphere boundingSphere(std::span<const Triangle> triangles)
@@ -125,7 +123,7 @@ private:
     bool isSmooth(float roughness, const std::optional<Texture>& texture) const
     {
         const float least = roughness * (texture ? findMin(*scene_.images[texture->image].pixels, 1) : 1.0F);
-        return least * least < kMinAlpha;
+        return least * least < kMinLobeAlpha;
     }
 
     // A solid has no interface where it meets another one of the same index; light passes there as through smooth glass.
@@ -146,7 +144,7 @@ private:
             return type == kMirror || type == kDielectric;
         }
         const Material& material = scene_.materials[id];
-        const bool smooth = material.glossy ? material.roughness > 1.0F - std::sqrt(kMinAlpha) || material.textures[kSlotSpecularColor]
+        const bool smooth = material.glossy ? material.roughness > 1.0F - std::sqrt(kMinLobeAlpha) || material.textures[kSlotSpecularColor]
                                             : isSmooth(material.roughness, material.textures[kSlotMetallicRoughness]);
         return smooth || mayMatchIndex(material) ||
                (material.clearcoat > 0.0F && isSmooth(material.clearcoatRoughness, material.textures[kSlotClearcoatRoughness]));
@@ -210,7 +208,7 @@ std::vector<BoundingSphere> grouped(std::vector<BoundingSphere> targets)
     std::vector<BoundingSphere> bounds;
     for (const Group& group : groups) {
         bounds.push_back(boundingSphere(std::span<const BoundingSphere>(group)));
-        bounds.back().radius *= 1.0 + kMargin;
+        bounds.back().radius *= 1.0 + kTargetMargin;
     }
     return bounds;
 }
@@ -258,17 +256,17 @@ double computeFlux(const FlatLight& light)
     const std::uint32_t kind = light.kind & kLightKindMask;
     const double size = static_cast<double>(light.size);
     if (kind == kPointLight || kind == kSpotLight) {
-        return 4.0 * kPi * strength(light.intensity);
+        return 4.0 * pi * strongestChannel(light.intensity);
     }
-    const double area = kind == kSphereLight ? 4.0 * kPi * size * size : size;
-    return kPi * area * (isDoubleSided(light) ? 2.0 : 1.0) * strength(light.intensity);
+    const double area = kind == kSphereLight ? 4.0 * pi * size * size : size;
+    return pi * area * (isDoubleSided(light) ? 2.0 : 1.0) * strongestChannel(light.intensity);
 }
 
 double fluxToTargets(const FlatLight& light, std::span<const BoundingSphere> targets)
 {
     double sum = 0.0;
     for (const BoundingSphere& target : targets) {
-        sum += (light.kind & kLightKindMask) == kDirectionalLight ? kPi * target.radius * target.radius * strength(light.intensity)
+        sum += (light.kind & kLightKindMask) == kDirectionalLight ? pi * target.radius * target.radius * strongestChannel(light.intensity)
                                                                   : shareOf(light, target);
     }
     return (light.kind & kLightKindMask) == kDirectionalLight ? sum : std::min(sum, 1.0) * computeFlux(light);
@@ -278,7 +276,7 @@ double fluxToTargets(const FlatLight& light, std::span<const BoundingSphere> tar
 double computeBrightness(const FlatLight& light, double sceneRadius)
 {
     const std::uint32_t kind = light.kind & kLightKindMask;
-    const double intensity = strength(light.intensity);
+    const double intensity = strongestChannel(light.intensity);
     return kind == kDirectionalLight ? intensity : kind <= kSphereLight ? intensity : intensity / (sceneRadius * sceneRadius);
 }
 
@@ -288,10 +286,10 @@ bool isPunctual(const FlatLight& light) { return (light.kind & kLightKindMask) >
 double computeShareOfLight(const FlatLight& light, const BoundingSphere& target)
 {
     const bool sphere = (light.kind & kLightKindMask) == kSphereLight;
-    const double size = static_cast<double>(light.size), area = sphere ? kPi * size * size : size;
+    const double size = static_cast<double>(light.size), area = sphere ? pi * size * size : size;
     const glm::dvec3 middle = glm::dvec3(light.position) + (sphere ? glm::dvec3(0.0) : 0.5 * glm::dvec3(light.edge1 + light.edge2));
     const double distance = std::max(glm::length(middle - target.center), 0.5 * target.radius);
-    return std::min(1.0, area / (kPi * distance * distance));
+    return std::min(1.0, area / (pi * distance * distance));
 }
 
 // Whether light paths meet caustics more often than camera paths do, in a room of this surface area: per sample of a pixel, a tenth of the
@@ -305,7 +303,7 @@ bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const doub
     double hits = 0.0, weights = 0.0, chance = 0.0;
     for (const BoundingSphere& target : targets) {
         // The mean area that a convex body shows is a quarter of its surface (Cauchy).
-        const double shown = std::min(1.0, 0.25 * target.area / (kPi * target.radius * target.radius));
+        const double shown = std::min(1.0, 0.25 * target.area / (pi * target.radius * target.radius));
         double share = 0.0;
         for (std::size_t i = 0; i < lights.size(); ++i) {
             if (isPunctual(lights[i]) && fluxes[i] > 0.0) {
@@ -313,7 +311,7 @@ bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const doub
             }
             share += computeShareOfLight(lights[i], target);
         }
-        const double weight = kPi * target.radius * target.radius;
+        const double weight = pi * target.radius * target.radius;
         hits += weight * shown;
         weights += weight;
         chance += std::min(1.0, target.area / roomArea) * std::min(1.0, share);
@@ -343,7 +341,7 @@ double roomArea(const Primitives& primitives, std::span<const BoundingSphere> pl
     return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
 }
 
-uvec4 texelOf(const BoundingSphere& sphere)
+uvec4 packTarget(const BoundingSphere& sphere)
 {
     const glm::vec3 center(sphere.center);
     return {std::bit_cast<std::uint32_t>(center.x), std::bit_cast<std::uint32_t>(center.y), std::bit_cast<std::uint32_t>(center.z),
@@ -388,10 +386,10 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     flat.causticLights = static_cast<std::uint32_t>(lights);
     flat.brightness = static_cast<float>(brightness);
     for (const BoundingSphere& target : targets) {
-        flat.caustics.push_back(texelOf(target));
+        flat.caustics.push_back(packTarget(target));
     }
     flat.caustics.resize(kSceneSphere);
-    flat.caustics.push_back(texelOf(whole));
+    flat.caustics.push_back(packTarget(whole));
     for (const PiecewiseConstantEntry& entry : buildPiecewiseConstant(fluxes)) {
         flat.caustics.emplace_back(entry.first, entry.last, entry.searchBegin, entry.searchEnd);
     }

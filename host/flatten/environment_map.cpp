@@ -13,7 +13,7 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // Beyond this number of texels, blocks of them make a cell.
 constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 23;
@@ -39,8 +39,6 @@ uvec2 packTexel(const glm::vec3& color)
     return {r | g << 18U, g >> 14U | b << 4U | static_cast<std::uint32_t>(exponent + kBias) << 22U};
 }
 
-double strongest(const glm::vec3& c) { return static_cast<double>(std::max({c.r, c.g, c.b})); }
-
 // The mean of the bilinear interpolant over a texel, a filter (1, 6, 1) / 8 each way: no cell next to a light is without weight.
 double meanOverTexel(const RadianceMap& map, std::uint32_t x, std::uint32_t y)
 {
@@ -48,7 +46,7 @@ double meanOverTexel(const RadianceMap& map, std::uint32_t x, std::uint32_t y)
     const std::uint32_t above = y == 0 ? 0 : y - 1, below = std::min(y + 1, map.height - 1);
     const auto row = [&](std::uint32_t v) {
         const glm::vec3* texels = &map.texels[std::size_t{v} * map.width];
-        return strongest(texels[left]) + 6.0 * strongest(texels[x]) + strongest(texels[right]);
+        return strongestChannel(texels[left]) + 6.0 * strongestChannel(texels[x]) + strongestChannel(texels[right]);
     };
     return (row(above) + 6.0 * row(y) + row(below)) / 64.0;
 }
@@ -70,13 +68,13 @@ CellGrid chooseCells(const RadianceMap& map)
 }
 
 // sin^2 of half the polar angle at the lower edge of row `row`.
-double halfSine2(std::uint32_t row, std::uint32_t rows) { return std::pow(std::sin(0.5 * kPi * row / rows), 2.0); }
+double halfSine2(std::uint32_t row, std::uint32_t rows) { return std::pow(std::sin(0.5 * pi * row / rows), 2.0); }
 
 // Of a cell of the row, per cell: 2 pi (cos a - cos b) / columns, without cancellation at the poles.
 double solidAngle(std::uint32_t row, const CellGrid& grid)
 {
-    const double a = kPi * row / grid.height, b = kPi * (row + 1) / grid.height;
-    return 2.0 * kPi / grid.width * 2.0 * std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
+    const double a = pi * row / grid.height, b = pi * (row + 1) / grid.height;
+    return 2.0 * pi / grid.width * 2.0 * std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
 }
 
 std::vector<double> meansOfCells(const RadianceMap& map, const CellGrid& grid)
@@ -108,7 +106,7 @@ uvec4 rowBounds(std::uint32_t row, const CellGrid& grid)
     return {bits(halfSine2(from, grid.height)), bits(halfSine2(from + 1, grid.height)), bits(lower ? 1.0 : 0.0), 0};
 }
 
-uvec4 texelOf(const PiecewiseConstantEntry& entry, double pdf)
+uvec4 packCell(const PiecewiseConstantEntry& entry, double pdf)
 {
     return {entry.first, entry.last, std::bit_cast<std::uint32_t>(static_cast<float>(pdf)), entry.searchBegin | entry.searchEnd << 16U};
 }
@@ -128,11 +126,11 @@ std::vector<uvec4> makeCells(const std::vector<double>& weights, const CellGrid&
         const double pdfOfRow = computeProbability(rows[row]) / solidAngle(row, grid);
         const std::span<const double> ofRow = std::span(weights).subspan(std::size_t{row} * grid.width, grid.width);
         for (const PiecewiseConstantEntry& cell : buildPiecewiseConstant(ofRow)) {
-            cells.push_back(texelOf(cell, pdfOfRow * computeProbability(cell)));
+            cells.push_back(packCell(cell, pdfOfRow * computeProbability(cell)));
         }
     }
     for (std::uint32_t row = 0; row < grid.height; ++row) {
-        cells.push_back(texelOf(rows[row], 0.0));
+        cells.push_back(packCell(rows[row], 0.0));
         cells.push_back(rowBounds(row, grid));
     }
     return cells;
@@ -155,7 +153,7 @@ PackedEnvironment packEnvironmentMap(std::shared_ptr<const RadianceMap> source)
     if (!(packed.integral > 0.0)) {
         return packed;
     }
-    const double mean = packed.integral / (4.0 * kPi);
+    const double mean = packed.integral / (4.0 * pi);
     for (std::uint32_t row = 0; row < grid.height; ++row) {
         for (std::uint32_t x = 0; x < grid.width; ++x) {
             double& weight = weights[std::size_t{row} * grid.width + x];

@@ -9,6 +9,7 @@
 #include "shaders/shared/limits.h"
 #include "shaders/shared/scene_types.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +17,9 @@
 #include <vector>
 
 namespace glim {
+
+// By which the colours of lights count: it does not change when channels are swapped.
+inline double strongestChannel(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
 
 // The images of a scene as kernels read them: each once, however many textures use it.
 struct PackedImages {

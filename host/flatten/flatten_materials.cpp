@@ -54,7 +54,7 @@ std::optional<glm::dvec4> oneColor(const DecodedImage& image)
 
 static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kTexelViewBits);
 
-std::size_t wordsOf(const DecodedImage& image)
+std::size_t countTexels(const DecodedImage& image)
 {
     const std::size_t texels = std::size_t{image.width} * image.height;
     return image.rgba16.empty() ? texels : 2 * texels;
@@ -297,9 +297,9 @@ private:
     {
         const auto [known, fresh] = firstTexels_.try_emplace(id, texelCount_);
         if (fresh) {
-            flat_.imageBytes[id] = wordsOf(*scene_.images[id].pixels) * sizeof(std::uint32_t);
+            flat_.imageBytes[id] = countTexels(*scene_.images[id].pixels) * sizeof(std::uint32_t);
             images_.push_back(scene_.images[id].pixels);
-            texelCount_ += static_cast<std::uint32_t>(wordsOf(*scene_.images[id].pixels));
+            texelCount_ += static_cast<std::uint32_t>(countTexels(*scene_.images[id].pixels));
         }
         return known->second;
     }

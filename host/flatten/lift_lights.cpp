@@ -21,13 +21,13 @@ constexpr std::size_t kCostOfPair = 64;  // whose boxes overlap, in comparisons
 constexpr float kCoplanar = 0x1p-22F;    // of the coordinates: two roundings
 constexpr float kLift = 0x1p-18F;        // of the coordinates: what a hit at a grazing angle of .1 is off by
 
-Box computeBox(const Triangle& triangle)
+Box boxOf(const Triangle& triangle)
 {
     const auto& [a, b, c] = triangle.vertices;
     return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
 }
 
-float sizeOf(const Box& box)
+float longestSide(const Box& box)
 {
     const glm::vec3 size = glm::max(glm::abs(box.lo), glm::abs(box.hi));
     return std::max({size.x, size.y, size.z});
@@ -66,7 +66,7 @@ bool overlapInPlane(const Triangle& a, const Triangle& b, const glm::dvec3& norm
 // How far the light must move, or 0, if their boxes overlap.
 float computeLift(const Triangle& light, const Box& box, const Triangle& other, const Box& otherBox)
 {
-    const float size = std::max(sizeOf(box), sizeOf(otherBox));
+    const float size = std::max(longestSide(box), longestSide(otherBox));
     const double slack = static_cast<double>(kCoplanar * size);
     const glm::dvec3 normal = glm::normalize(faceNormal(light)), at(light.vertices[0]);
     const bool coplanar =
@@ -139,7 +139,7 @@ void replaceTriangles(Primitives& primitives, const Copies& copies)
 }
 
 // The same for the same vertices in any order.
-std::uint64_t computeHash(const Triangle& triangle)
+std::uint64_t hashTriangle(const Triangle& triangle)
 {
     std::uint64_t sum = 0;
     for (const glm::vec3& vertex : triangle.vertices) {
@@ -157,7 +157,7 @@ Copies findHidden(const Scene& scene, const Primitives& primitives)
 {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> lights;
     for (const std::uint32_t light : findEmitting(scene, primitives)) {
-        lights.emplace_back(computeHash(primitives.triangles[light]), light);
+        lights.emplace_back(hashTriangle(primitives.triangles[light]), light);
     }
     std::ranges::sort(lights);
     const auto hides = [&](std::uint32_t first, std::uint32_t second) {
@@ -251,9 +251,9 @@ std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const 
         Box box;
     };
     std::vector<SortedLight> sorted;
-    Box all = computeBox(triangles[lights[0]]);
+    Box all = boxOf(triangles[lights[0]]);
     for (const std::uint32_t light : lights) {
-        const Box box = computeBox(triangles[light]);
+        const Box box = boxOf(triangles[light]);
         all = {glm::min(all.lo, box.lo), glm::max(all.hi, box.hi)};
         sorted.push_back({0.0F, light, box});
     }
@@ -265,18 +265,18 @@ std::vector<Overlap> findOverlaps(const std::vector<Triangle>& triangles, const 
         widest = std::max(widest, light.box.hi[axis] - light.begin);
     }
     std::ranges::sort(sorted, {}, [](const SortedLight& light) { return std::pair(light.begin, light.triangle); });
-    const float lightSize = sizeOf(all);
+    const float lightSize = longestSide(all);
     std::vector<Overlap> overlaps;
     std::size_t comparisons = 0;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        const Box box = computeBox(triangles[i]);
-        const float slack = 2.0F * kCoplanar * std::max(lightSize, sizeOf(box));
+        const Box box = boxOf(triangles[i]);
+        const float slack = 2.0F * kCoplanar * std::max(lightSize, longestSide(box));
         const auto first = std::ranges::lower_bound(sorted, box.lo[axis] - widest - slack, {}, &SortedLight::begin);
         const auto end = std::ranges::upper_bound(sorted, box.hi[axis] + slack, {}, &SortedLight::begin);
         comparisons += static_cast<std::size_t>(std::max(end - first, std::ptrdiff_t{0}));
         for (auto light = first; light < end; ++light) {
             if (overlap(light->box, box, slack) && light->triangle != i &&
-                overlap(light->box, box, kCoplanar * std::max(sizeOf(light->box), sizeOf(box)))) {
+                overlap(light->box, box, kCoplanar * std::max(longestSide(light->box), longestSide(box)))) {
                 comparisons += kCostOfPair;
                 const float lift = computeLift(triangles[light->triangle], light->box, triangles[i], box);
                 if (lift > 0.0F) {

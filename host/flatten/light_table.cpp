@@ -14,10 +14,7 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// A colour counts by its strongest channel, which does not change when channels are swapped.
-double strength(const glm::vec3& color) { return static_cast<double>(std::max({color.r, color.g, color.b})); }
+using std::numbers::pi;
 
 // The strength of an image's texels in linear light, about; 0 only where a texel is black.
 class EmissiveImage {
@@ -158,7 +155,7 @@ public:
         const std::uint32_t id = scene_.meshes[scene_.instances[instance].mesh].material;
         const Material& material = scene_.materials[id];
         const std::uint32_t first = primitives_.firstTriangles[instance], end = primitives_.firstTriangles[instance + 1];
-        if (!(strength(material.emission) > 0.0)) {
+        if (!(strongestChannel(material.emission) > 0.0)) {
             return;
         }
         const FlatLight surface = surfaceLight(id);
@@ -176,7 +173,7 @@ public:
 
     void addSphere(const Sphere& sphere, std::size_t index)
     {
-        if (!(strength(scene_.materials[sphere.material].emission) > 0.0)) {
+        if (!(strongestChannel(scene_.materials[sphere.material].emission) > 0.0)) {
             return;
         }
         FlatLight light = surfaceLight(sphere.material);
@@ -188,12 +185,12 @@ public:
         const LightBounds bounds{sphere.center - sphere.radius, sphere.center + sphere.radius, sphere.radius};
         const double radius = static_cast<double>(sphere.radius);
         flat_.features |= kFeatureSphereLights;
-        add({light, bounds}, kPi * radius * radius * strength(light.intensity));
+        add({light, bounds}, pi * radius * radius * strongestChannel(light.intensity));
     }
 
     void addPunctual(const PunctualLight& punctual)
     {
-        if (!(strength(punctual.intensity) > 0.0)) {
+        if (!(strongestChannel(punctual.intensity) > 0.0)) {
             return;
         }
         FlatLight light{};
@@ -207,7 +204,7 @@ public:
         if (punctual.kind == PunctualLight::Kind::Directional) {
             light.kind = kDirectionalLight;
             infinite_.push_back(light);
-            irradiances_.push_back(strength(punctual.intensity));
+            irradiances_.push_back(strongestChannel(punctual.intensity));
             return;
         }
         LightBounds bounds{punctual.position, punctual.position};
@@ -217,19 +214,19 @@ public:
             bounds.axis = punctual.direction;
             bounds.cosEmission = 1.0F - punctual.versineOuter - 1e-6F;
         }
-        add({light, bounds}, strength(punctual.intensity));
+        add({light, bounds}, strongestChannel(punctual.intensity));
     }
 
     void addEnvironment(const Environment& environment)
     {
         const glm::vec3& radiance = environment.radiance;
-        if (!(strength(radiance) > 0.0)) {
+        if (!(strongestChannel(radiance) > 0.0)) {
             return;
         }
         if (environment.map && flat_.environmentMap->source != environment.map) {
             flat_.environmentMap = std::make_shared<PackedEnvironment>(packEnvironmentMap(environment.map));
         }
-        const double integral = environment.map ? flat_.environmentMap->integral : 4.0 * kPi;
+        const double integral = environment.map ? flat_.environmentMap->integral : 4.0 * pi;
         if (!(integral > 0.0)) {
             return;
         }
@@ -242,7 +239,7 @@ public:
         flat_.features |= kFeatureEnvironment;
         flat_.environment = radiance;
         infinite_.push_back(light);
-        irradiances_.push_back(0.25 * integral * strength(radiance));  // of a surface that faces anywhere, on average
+        irradiances_.push_back(0.25 * integral * strongestChannel(radiance));  // of a surface that faces anywhere, on average
     }
 
     void finish()
@@ -354,7 +351,7 @@ private:
         light.light.otherPrimitive = other;
         light.light.primitiveRef = refOfPrimitive_[primitive];
         flat_.features |= other == kNoPrimitive ? kFeatureTriangleLights : kFeatureRectangleLights;
-        add(light, factor * static_cast<double>(light.light.size) * strength(surface.intensity));
+        add(light, factor * static_cast<double>(light.light.size) * strongestChannel(surface.intensity));
     }
 
     void add(const FiniteLight& light, double power)

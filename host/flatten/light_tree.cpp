@@ -8,7 +8,6 @@
 namespace glim {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr std::uint32_t kBins = 16;
 constexpr std::uint32_t kMaxUnevenLevels = 32;  // below these, halves have equal numbers of lights: no tree is deeper than 64
 
@@ -56,6 +55,7 @@ float orientationCost(const Cluster& cluster)
 {
     const float cosNormals = std::clamp(2.0F * glm::length(cluster.axes) / static_cast<float>(cluster.count) - 1.0F, -1.0F, 1.0F);
     const float normals = std::acos(cosNormals), sinNormals = std::sqrt((1.0F - cosNormals) * (1.0F + cosNormals));
+    constexpr float kPi = std::numbers::pi_v<float>;
     const float emission = cluster.cosEmission == 0.0F ? 0.5F * kPi : std::acos(std::clamp(cluster.cosEmission, -1.0F, 1.0F));
     const float reach = std::min(normals + emission, kPi);
     return 2.0F * kPi * (1.0F - cosNormals) +

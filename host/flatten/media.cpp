@@ -13,7 +13,7 @@ struct Solid {
     Bounds bounds;
 };
 
-Bounds computeBounds(const Scene& scene, const MeshInstance& instance)
+Bounds computeSolidBounds(const Scene& scene, const MeshInstance& instance)
 {
     Bounds bounds;
     for (const glm::dvec3& position : scene.meshes[instance.mesh].positions) {
@@ -73,7 +73,7 @@ public:
         std::vector<Solid> solids;
         for (const MeshInstance& instance : scene_.instances) {
             if (const std::uint32_t medium = numberOf(scene_.meshes[instance.mesh].material)) {
-                solids.push_back({medium, computeBounds(scene_, instance)});
+                solids.push_back({medium, computeSolidBounds(scene_, instance)});
             }
         }
         for (const Sphere& sphere : scene_.spheres) {

@@ -14,28 +14,18 @@ namespace {
 
 static_assert(kBvhWidth == 8 && kMaxLeafRefs == 3, "what fits into a word of hits");
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kMaxSteps = 255.0;
 
 // Grows every box by at least one ulp and 2^-30 of the scene. Even for the smallest direction component that intersect_node.glsl has, a
 // face that would pass through the ray's origin is then hit at |t| >= 1e9 scene sizes. Rounding in double is far below that.
-Box thicken(const Box& box, float pad)
-{
-    Box thick = box;
-    for (int k = 0; k < 3; ++k) {
-        thick.lo[k] = std::nextafter(box.lo[k] - pad, -kInfinity);
-        thick.hi[k] = std::nextafter(box.hi[k] + pad, kInfinity);
-    }
-    return thick;
-}
+Box thicken(const Box& box, float pad) { return roundOutwards({box.lo - pad, box.hi + pad}); }
 
-Box computeBounds(const WideNode& node, float pad)
+Box computeNodeBox(const WideNode& node, float pad)
 {
-    Box bounds{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    Box bounds = kEmptyBox;
     for (const WideChild& child : node.children) {
         if (child.kind != WideChild::Kind::Nothing) {
-            const Box box = thicken(child.box, pad);
-            bounds = {glm::min(bounds.lo, box.lo), glm::max(bounds.hi, box.hi)};
+            bounds = unite(bounds, thicken(child.box, pad));
         }
     }
     return bounds;
@@ -111,7 +101,7 @@ std::array<uvec4, kNodeTexels> pack(const WideNode& node, float pad)
     if ((content.entries[0] | content.entries[1]) == 0) {
         return {};  // an instance, which flatten_scene.cpp fills in
     }
-    const Box bounds = computeBounds(node, pad);
+    const Box bounds = computeNodeBox(node, pad);
     std::array<Planes, 3> planes;
     std::uint32_t exponents = content.inner << 24;
     for (int axis = 0; axis < 3; ++axis) {

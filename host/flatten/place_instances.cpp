@@ -12,7 +12,7 @@ constexpr double kGamma = 8.0 * 0x1p-24 / (1.0 - 8.0 * 0x1p-24);
 
 glm::dmat3 absolute(const glm::dmat3& m) { return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])}; }
 
-glm::dvec3 farthestOf(const Box& box) { return glm::max(glm::abs(glm::dvec3(box.lo)), glm::abs(glm::dvec3(box.hi))); }
+glm::dvec3 farthestCorner(const Box& box) { return glm::max(glm::abs(glm::dvec3(box.lo)), glm::abs(glm::dvec3(box.hi))); }
 
 // In the scene's space: the error of a point that is taken from the scene, where its coordinates are at most `farthest`, to the mesh.
 glm::dvec3 boundInverseError(const Placement& placement, const glm::dvec3& farthest)
@@ -48,15 +48,14 @@ InstanceData placeInstance(const Placement& placement, const Box& meshBox)
     data.column2 = glm::vec3(placement.linear[2]);
     data.translation = glm::vec3(placement.translation);
     data.mirrors = glm::determinant(placement.linear) < 0.0 ? 1 : 0;
-    const glm::dvec3 placed = absolute(placement.linear) * farthestOf(meshBox) + glm::abs(placement.translation);
+    const glm::dvec3 placed = absolute(placement.linear) * farthestCorner(meshBox) + glm::abs(placement.translation);
     data.errorBound = roundUp(boundInverseError(placement, placed) + kGamma * placed);
     return data;
 }
 
 Box placeBoxes(const Placement& placement, std::span<const Box> parts)
 {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    Box placed{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    Box placed = kEmptyBox;
     for (const Box& part : parts) {
         const glm::dvec3 low(part.lo), high(part.hi);
         const glm::dvec3 center = placement.linear * (0.5 * (low + high)) + placement.translation;

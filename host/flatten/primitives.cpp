@@ -33,7 +33,7 @@ struct Vertex {
 
 using Words = std::array<std::uint32_t, 15>;
 
-std::size_t computeHash(const Words& words)
+std::size_t hashWords(const Words& words)
 {
     std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a, a word at a time; the multiplication's high bits are the good ones
     for (const std::uint32_t word : words) {
@@ -245,7 +245,7 @@ private:
     std::uint32_t findOrAddVertex(const Vertex& vertex)
     {
         const Words words = wordsOf(vertex.normal, vertex.uv, vertex.tangent, vertex.color);
-        std::size_t slot = computeHash(words) & (slots_.size() - 1);
+        std::size_t slot = hashWords(words) & (slots_.size() - 1);
         while (slots_[slot] != kNotYet && wordsOfVertex(slots_[slot]) != words) {
             slot = (slot + 1) & (slots_.size() - 1);
         }
@@ -280,18 +280,18 @@ private:
     std::size_t flatTriangles_ = 0, badNormals_ = 0;
 };
 
-bool areSame(const glm::dmat4& a, const glm::dmat4& b)
+bool areIdentical(const glm::dmat4& a, const glm::dmat4& b)
 {
     return std::memcmp(&a, &b, sizeof a) == 0;  // 0 and -0 place vertices differently
 }
 
-bool areSame(const Sphere& a, const Sphere& b)
+bool areIdentical(const Sphere& a, const Sphere& b)
 {
     return std::memcmp(&a.center, &b.center, sizeof a.center) == 0 && a.radius == b.radius && a.material == b.material;
 }
 
 // Whether the materials may differ in colours alone, and in other numbers that shapes do not depend on.
-bool haveSameSurfaces(const Material& a, const Material& b)
+bool areSameSurface(const Material& a, const Material& b)
 {
     const auto shapeOf = [](const Material& m) {
         const bool isOpaque = m.alphaMode == AlphaMode::Opaque;
@@ -306,10 +306,10 @@ bool haveSameSurfaces(const Material& a, const Material& b)
 
 Same compareSurfaces(const Scene& before, const Primitives& primitives, const Scene& scene)
 {
-    const auto spheres = [](const Sphere& a, const Sphere& b) { return areSame(a, b); };
+    const auto spheres = [](const Sphere& a, const Sphere& b) { return areIdentical(a, b); };
     const auto instances = [](const MeshInstance& a, const MeshInstance& b) { return a.mesh == b.mesh; };
     if (!before.meshes.isSameAs(scene.meshes) || before.origin != scene.origin || before.showsBackFaces != scene.showsBackFaces ||
-        !std::ranges::equal(before.materials, scene.materials, haveSameSurfaces) ||
+        !std::ranges::equal(before.materials, scene.materials, areSameSurface) ||
         !std::ranges::equal(before.spheres, scene.spheres, spheres) || !std::ranges::equal(before.instances, scene.instances, instances)) {
         return Same::Nothing;
     }
@@ -319,7 +319,7 @@ Same compareSurfaces(const Scene& before, const Primitives& primitives, const Sc
     }
     Same same = Same::Everything;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        if (!areSame(before.instances[i].worldFromMesh, scene.instances[i].worldFromMesh)) {
+        if (!areIdentical(before.instances[i].worldFromMesh, scene.instances[i].worldFromMesh)) {
             same = same != Same::Nothing && isShared[scene.instances[i].mesh] ? Same::AllButPlacements : Same::Nothing;
         }
     }

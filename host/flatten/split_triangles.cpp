@@ -30,7 +30,7 @@ constexpr std::uint32_t kPlanes = 1U << 20;
 // beside the triangle by some 2^-24 of its size. The padding of nodes around whole triangles covers that (kPlanePad); nodes around pieces
 // are smaller. Without this margin, 10 of 2.4 million rays from near the edges of split floors and walls missed what testing every
 // triangle finds; with a quarter of it none did.
-constexpr double kMargin = 0x1p-22;
+constexpr double kCutMargin = 0x1p-22;
 
 // A triangle that is clipped by six planes has nine corners at most, or 28 if rounding has bent it so much that each plane cuts as many
 // sides as it can.
@@ -86,7 +86,7 @@ Box roundedOutwards(const glm::dvec3& lo, const glm::dvec3& hi)
 }
 
 // Within `clipped`, the box that the polygon was clipped by.
-Box computeBounds(const Polygon& polygon, const Box& clipped)
+Box computePieceBox(const Polygon& polygon, const Box& clipped)
 {
     glm::dvec3 lo = polygon.corners[0], hi = polygon.corners[0];
     for (const glm::dvec3& corner : std::span(polygon.corners).first(polygon.count)) {
@@ -203,8 +203,8 @@ private:
         if (lower.count == 0 || upper.count == 0) {
             return;
         }
-        pieces_.boxes[piece] = computeBounds(lower, below);
-        pieces_.boxes.push_back(computeBounds(upper, above));
+        pieces_.boxes[piece] = computePieceBox(lower, below);
+        pieces_.boxes.push_back(computePieceBox(upper, above));
         pieces_.primitives.push_back(id);
         consider(piece);
         consider(static_cast<std::uint32_t>(pieces_.boxes.size() - 1));
@@ -214,7 +214,7 @@ private:
     {
         const auto& v = triangles_[pieces_.primitives[piece]].vertices;
         const glm::dvec3 size = glm::dvec3(glm::max(v[0], glm::max(v[1], v[2]))) - glm::dvec3(glm::min(v[0], glm::min(v[1], v[2])));
-        const double margin = kMargin * std::max({size.x, size.y, size.z});
+        const double margin = kCutMargin * std::max({size.x, size.y, size.z});
         Box& box = pieces_.boxes[piece];
         box = roundedOutwards(glm::dvec3(box.lo) - margin, glm::dvec3(box.hi) + margin);
     }

@@ -17,7 +17,7 @@ struct Candidate {
     DeviceDescription description;
 };
 
-std::string getName(VkPhysicalDeviceType type)
+std::string nameOfKind(VkPhysicalDeviceType type)
 {
     switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete GPU";
@@ -102,7 +102,7 @@ Candidate describe(VkPhysicalDevice physical)
     DeviceDescription d;
     d.name = properties.properties.deviceName;
     d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    d.kind = getName(properties.properties.deviceType);
+    d.kind = nameOfKind(properties.properties.deviceType);
     d.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     d.subgroupSize = subgroup.subgroupSize;
     d.memory = largestLocalHeap(physical);

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 // Vulkan's name of a failure. (vk::to_string would cost its only user 3.6 s of compilation.)
-std::string getName(VkResult result)
+std::string nameOfResult(VkResult result)
 {
     switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
@@ -80,7 +80,7 @@ void check(VkResult result, const std::string& action)
         const std::optional<AddressLimit> limit = addressLimit();
         const bool noMemory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
         throw DeviceError(noMemory ? MessageId::OutOfMemory : MessageId::DriverFailed,
-                          {"Vulkan could not ", part::place(action), ": ", part::value(getName(result)),
+                          {"Vulkan could not ", part::place(action), ": ", part::value(nameOfResult(result)),
                            limit ? "; of the addresses that a limit (ulimit -v) allows the process, " + std::to_string(limit->left >> 20U) +
                                        " MiB are left."
                                  : "."});

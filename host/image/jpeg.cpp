@@ -34,7 +34,7 @@ struct JpegWriter {
 };
 
 // False if libjpeg has given up.
-bool encode(JpegWriter& writer, std::uint32_t width, std::uint32_t height, const Rgb8* first)
+bool encodeJpeg(JpegWriter& writer, std::uint32_t width, std::uint32_t height, const Rgb8* first)
 {
     if (setjmp(writer.errors.leave) != 0) {
         return false;
@@ -63,7 +63,7 @@ void writeJpeg(const std::filesystem::path& path, std::uint32_t width, std::uint
 {
     AtomicFile file(path);
     JpegWriter writer;
-    if (!encode(writer, width, height, pixels.data())) {
+    if (!encodeJpeg(writer, width, height, pixels.data())) {
         throw InputError(MessageId::FileUnwritable,
                          {part::file(path), ": cannot be written as JPEG (", part::value(writer.errors.message), ")."});
     }

@@ -67,7 +67,7 @@ void writeRows(png_structp png, png_infop info, const Rows& rows)
 }
 
 // Has no local object with a destructor, since setjmp may return a second time.
-bool encode(PngSink& sink, const Rows& rows)
+bool encodePng(PngSink& sink, const Rows& rows)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, pngFail, pngWarn);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
@@ -105,7 +105,7 @@ void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint3
 {
     AtomicFile file(path);
     PngSink sink{file, path.string()};
-    if (!encode(sink, {width, height, pixels.data()})) {
+    if (!encodePng(sink, {width, height, pixels.data()})) {
         throw InputError(*sink.error);
     }
     file.commit();

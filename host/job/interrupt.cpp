@@ -10,7 +10,7 @@ namespace {
 // A signal handler can reach nothing but a global.
 volatile std::sig_atomic_t received = 0, requested = 0;
 
-void remember(int signal)
+void noteSignal(int signal)
 {
     received = signal;
     std::signal(signal, SIG_DFL);
@@ -21,7 +21,7 @@ void request(int) { requested = 1; }
 // A signal that was ignored when glim started stays ignored, as nohup and scripts' background jobs ask.
 void watch(int signal)
 {
-    if (std::signal(signal, remember) == SIG_IGN) {
+    if (std::signal(signal, noteSignal) == SIG_IGN) {
         std::signal(signal, SIG_IGN);
     }
 }

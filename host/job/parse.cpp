@@ -55,7 +55,7 @@ std::string toText(T number)
 }
 
 // `text` has the right form if `isWellFormed`.
-[[noreturn]] void refuse(const std::string& option, const std::string& text, bool isWellFormed, const std::string& expected)
+[[noreturn]] void refuseValue(const std::string& option, const std::string& text, bool isWellFormed, const std::string& expected)
 {
     throw UsageError(isWellFormed ? MessageId::OutOfRange : MessageId::Malformed,
                      {part::place(option), ": ", part::quoted(text), ": expected ", part::expected(expected)});
@@ -71,9 +71,9 @@ T parseBounded(const NumberOption<T>& option, const OptionValue& given, const st
     if (!parseNumber(unsignedText, value) || !(value >= option.low && value <= option.high)) {
         double number = 0.0;
         const bool isNumber = parseNumber(unsignedText, number) && (!std::is_integral_v<T> || number == std::floor(number));
-        refuse(option.name, text, isNumber,
-               std::string(std::is_integral_v<T> ? "a whole number" : "a number") + " from " + toText(option.low) + " to " +
-                   toText(option.high) + others);
+        refuseValue(option.name, text, isNumber,
+                    std::string(std::is_integral_v<T> ? "a whole number" : "a number") + " from " + toText(option.low) + " to " +
+                        toText(option.high) + others);
     }
     return value;
 }
@@ -119,7 +119,7 @@ glm::uvec2 parseSize(const OptionValue& value)
     glm::uvec2 size(0);
     const bool areNumbers = parts.size() == 2 && parseNumber(parts[0], size.x) && parseNumber(parts[1], size.y);
     if (!areNumbers || size.x == 0 || size.y == 0 || size.x > kMaxSide || size.y > kMaxSide) {
-        refuse("--size", text, areNumbers, "WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
+        refuseValue("--size", text, areNumbers, "WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
     }
     return size;
 }
@@ -133,7 +133,7 @@ FrameRange parseFrames(const OptionValue& value)
     const bool areNumbers = (parts.size() == 2 || parts.size() == 3) && parseNumber(parts[0], range.first) &&
                             parseNumber(parts[1], range.last) && (parts.size() == 2 || parseNumber(parts[2], range.step));
     if (!areNumbers || range.first > range.last || range.last > kMaxFrame || range.step == 0) {
-        refuse("--frames", text, areNumbers, "FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
+        refuseValue("--frames", text, areNumbers, "FIRST:LAST or FIRST:LAST:STEP with FIRST <= LAST and STEP >= 1, as in 1:250");
     }
     return range;
 }
@@ -145,7 +145,7 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, co
     std::pair<std::uint32_t, std::uint32_t> range;
     const bool areNumbers = parts.size() == 2 && parseNumber(parts[0], range.first) && parseNumber(parts[1], range.second);
     if (!areNumbers || range.first >= range.second || range.second > most) {
-        refuse(option, text, areNumbers, "BEGIN:END with BEGIN < END <= " + std::to_string(most) + ", as in 0:256");
+        refuseValue(option, text, areNumbers, "BEGIN:END with BEGIN < END <= " + std::to_string(most) + ", as in 0:256");
     }
     return range;
 }
@@ -159,7 +159,7 @@ double parsePercent(const std::string& option, const OptionValue& value)
     }
     const bool isPercent = !text.empty() && text.back() == '%' && parseNumber(text.substr(0, text.size() - 1), percent);
     if (!isPercent || !(percent > 0.0 && percent <= 1000.0)) {
-        refuse(option, text, isPercent || value.isNumber(), "more than 0 and at most 1000 percent of the mean, as in 1%");
+        refuseValue(option, text, isPercent || value.isNumber(), "more than 0 and at most 1000 percent of the mean, as in 1%");
     }
     return 0.01 * percent;
 }
@@ -179,7 +179,8 @@ Edit parseEdit(const OptionValue& value)
     Edit edit{value.key().empty() ? text.substr(0, equals) : value.key(),
               value.key().empty() ? text.substr(std::min(equals, text.size() - 1) + 1) : text};
     if (!(edit.pointer.starts_with('/') || edit.pointer.find("#/") != std::string::npos) || equals == std::string::npos) {
-        refuse("--set", value.key() + text, false, "a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
+        refuseValue("--set", value.key() + text, false,
+                    "a pointer and a value, as in /materials/0/pbrMetallicRoughness/roughnessFactor=0.2");
     }
     const std::vector<std::string> parts = OptionValue(edit.value).split(',');
     Json numbers = Json::array();
@@ -219,8 +220,8 @@ Addition parseAddition(const OptionValue& value)
     const bool areNumbers = numbers.size() == parts.size() && (numbers.size() == kOfPoint || numbers.size() == kOfMatrix);
     // An @ may be part of a file's name, unless numbers follow.
     if (isMember ? !areNumbers : !numbers.empty() && !areNumbers) {
-        refuse("--add", isMember ? value.key() + " " + text : text, false,
-               "a file, then if need be @ and its place: x,y,z in metres, or the 16 numbers of a matrix, column by column");
+        refuseValue("--add", isMember ? value.key() + " " + text : text, false,
+                    "a file, then if need be @ and its place: x,y,z in metres, or the 16 numbers of a matrix, column by column");
     }
     Addition addition{isMember ? value.key() : areNumbers ? text.substr(0, at) : text};
     if (numbers.size() == kOfPoint) {
@@ -257,9 +258,9 @@ SamplePlace parseSample(const OptionValue& value)
     const bool areNumbers =
         parts.size() == 3 && parseNumber(parts[0], place.x) && parseNumber(parts[1], place.y) && parseNumber(parts[2], place.sample);
     if (!areNumbers || place.x >= kMaxSide || place.y >= kMaxSide || place.sample >= kMaxSample) {
-        refuse("--replay", text, areNumbers,
-               "X,Y,SAMPLE with whole numbers X and Y from 0 to " + std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " +
-                   std::to_string(kMaxSample - 1) + ", as in 12,40,7");
+        refuseValue("--replay", text, areNumbers,
+                    "X,Y,SAMPLE with whole numbers X and Y from 0 to " + std::to_string(kMaxSide - 1) + " and SAMPLE from 0 to " +
+                        std::to_string(kMaxSample - 1) + ", as in 12,40,7");
     }
     return place;
 }
@@ -271,7 +272,7 @@ double parseDuration(const std::string& option, const OptionValue& given)
     double value = 0.0;
     const bool isTime = unit != 0.0 && parseNumber(text.substr(0, text.size() - 1), value);
     if (!isTime || !(value > 0.0) || !std::isfinite(value)) {
-        refuse(option, text, isTime, "a time above 0 with its unit, as in 90s, 5m or 1h");
+        refuseValue(option, text, isTime, "a time above 0 with its unit, as in 90s, 5m or 1h");
     }
     return value * unit;
 }
@@ -283,7 +284,7 @@ float parseSurvival(const OptionValue& value)
     float survival = 0.0F;
     const bool isNumber = text.starts_with(start) && parseNumber(text.substr(start.size()), survival);
     if (!isNumber || !std::isnormal(survival) || !(survival > 0.0F && survival <= 1.0F)) {
-        refuse("--roulette", text, isNumber, "throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
+        refuseValue("--roulette", text, isNumber, "throughput, none or fixed:P with 0 < P <= 1, as in fixed:0.7");
     }
     return survival;
 }
@@ -315,8 +316,8 @@ Sun parseSun(const OptionValue& value)
     glm::dvec3 triple(0.0);
     const bool isTriple = parseTriple(value, triple);
     if (!isTriple || std::abs(triple.x) > 360.0 || std::abs(triple.y) > 90.0 || !(triple.z >= 0.0 && triple.z <= 1e30)) {
-        refuse("--sun", text, isTriple,
-               "azimuth and elevation in degrees, within 360 and 90, and an irradiance >= 0 in W/m^2, as in 30,45,1000");
+        refuseValue("--sun", text, isTriple,
+                    "azimuth and elevation in degrees, within 360 and 90, and an irradiance >= 0 in W/m^2, as in 30,45,1000");
     }
     return {triple.x, triple.y, static_cast<float>(triple.z)};
 }
@@ -332,8 +333,8 @@ glm::vec3 parseRadiance(const OptionValue& value)
     glm::vec3 radiance(0.0F);
     const bool isTriple = parseTriple(value, radiance);
     if (!isTriple || glm::any(glm::lessThan(radiance, glm::vec3(0.0F)))) {
-        refuse("--environment", text, isTriple,
-               "the name of a .hdr or .exr map, a constant radiance R,G,B with numbers >= 0, as in 1,1,1, studio or none");
+        refuseValue("--environment", text, isTriple,
+                    "the name of a .hdr or .exr map, a constant radiance R,G,B with numbers >= 0, as in 1,1,1, studio or none");
     }
     return radiance;
 }
@@ -342,7 +343,7 @@ glm::dvec3 parsePoint(const std::string& option, const OptionValue& value)
 {
     glm::dvec3 point(0.0);
     if (!parseTriple(value, point)) {
-        refuse(option, value.text(), false, "three numbers, as in 1,2.5,-3");
+        refuseValue(option, value.text(), false, "three numbers, as in 1,2.5,-3");
     }
     return point;
 }

@@ -14,7 +14,6 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kBlockSide = 8;
 constexpr std::size_t kMinBlocks = 16;  // below, a normal interval from the blocks' spread would be too narrow
 constexpr double kAbsoluteEpsilon = 0.01;
 
@@ -72,7 +71,7 @@ void divide(SquaredErrors& sums, double terms)
     sums.relMseAbsolute /= terms;
 }
 
-SquaredErrors meanOf(const std::vector<SquaredErrors>& pixels)
+SquaredErrors meanOfErrors(const std::vector<SquaredErrors>& pixels)
 {
     SquaredErrors sums;
     for (const SquaredErrors& pixel : pixels) {
@@ -108,7 +107,7 @@ void addErrors(const Picture& picture, const Picture& reference, const std::vect
             pixels.push_back(terms);
         }
     }
-    result.errors = meanOf(pixels);
+    result.errors = meanOfErrors(pixels);
     result.trimmed = trimErrors(pixels);
     result.mape /= 3.0 * static_cast<double>(result.compared);
 }

@@ -12,6 +12,9 @@
 
 namespace glim {
 
+// Of the blocks of pixels whose means are taken for independent and near enough to normal, in pixels.
+inline constexpr std::uint32_t kBlockSide = 8;
+
 struct Picture {
     std::uint32_t width = 0, height = 0;
     std::vector<glm::vec3> radiance;               // row 0 at the top, left to right

@@ -9,8 +9,6 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kBlockSide = 8;
-
 // Two correct pictures may differ by the rounding of float32 sums, which is no noise and does not average out: this much,
 // relative to the sum of the region's absolute values, is allowed on top. 2^-20 is 16 roundings.
 constexpr double kRounding = 0x1p-20;

@@ -80,7 +80,7 @@ Pose fly(const Pose& pose, const glm::dvec3& offset)
     return moved;
 }
 
-Pose frame(const Pose& pose, const Bounds& bounds, const Camera& camera, double aspectRatio)
+Pose frame(const Pose& pose, const BoundingSphere& bounds, const Camera& camera, double aspectRatio)
 {
     const double narrower = std::min(1.0, aspectRatio);
     const double slope = std::tan(0.5 * static_cast<double>(camera.yfov)) * narrower;
@@ -93,7 +93,7 @@ Pose frame(const Pose& pose, const Bounds& bounds, const Camera& camera, double 
     return moved;
 }
 
-Bounds computeBounds(const Scene& scene)
+BoundingSphere computeBoundingSphere(const Scene& scene)
 {
     const WorldBox box = computeWorldBox(scene);
     const glm::dvec3 low(box.low), high(box.high);
@@ -101,7 +101,7 @@ Bounds computeBounds(const Scene& scene)
     return {0.5 * (low + high) + scene.origin, radius > 0.0 ? radius : 1.0};
 }
 
-double guessDistance(const Camera& camera, const Bounds& bounds, const glm::dvec3& sceneOrigin)
+double guessDistance(const Camera& camera, const BoundingSphere& bounds, const glm::dvec3& sceneOrigin)
 {
     const glm::dvec3 toCenter = bounds.center - sceneOrigin - glm::dvec3(camera.position);
     return std::max(glm::dot(toCenter, glm::dvec3(camera.forward)), 0.05 * bounds.radius);

@@ -19,17 +19,17 @@ Pose dolly(const Pose& pose, double notches, Camera::Kind kind);
 Pose fly(const Pose& pose, const glm::dvec3& offset);
 
 // A sphere around the whole scene, in world coordinates.
-struct Bounds {
+struct BoundingSphere {
     glm::dvec3 center{0.0};
     double radius = 1.0;
 };
 
 // Places the camera so that it sees the whole sphere. It keeps its direction. `aspectRatio` is the picture's width over its height.
-Pose frame(const Pose& pose, const Bounds& bounds, const Camera& camera, double aspectRatio);
+Pose frame(const Pose& pose, const BoundingSphere& bounds, const Camera& camera, double aspectRatio);
 
-Bounds computeBounds(const Scene& scene);
+BoundingSphere computeBoundingSphere(const Scene& scene);
 
 // The likely distance of what a camera of the file looks at: that of the scene's centre along the view direction.
-double guessDistance(const Camera& camera, const Bounds& bounds, const glm::dvec3& sceneOrigin);
+double guessDistance(const Camera& camera, const BoundingSphere& bounds, const glm::dvec3& sceneOrigin);
 
 }  // namespace glim

@@ -26,7 +26,7 @@ void Viewpoint::enter(const Scene& scene)
 {
     cameras_ = scene.cameras;
     origin_ = scene.origin;
-    bounds_ = computeBounds(scene);
+    bounds_ = computeBoundingSphere(scene);
     index_ = std::min(index_, cameras_.size() - 1);
     firstIndex_ = std::min(firstIndex_, cameras_.size() - 1);
 }

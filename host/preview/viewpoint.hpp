@@ -55,7 +55,7 @@ public:
 private:
     std::vector<Camera> cameras_;
     glm::dvec3 origin_{0.0};
-    Bounds bounds_;
+    BoundingSphere bounds_;
     std::size_t index_, firstIndex_;
     std::optional<Pose> pose_;  // absent: the file's camera was not moved
     bool moved_ = false;

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace glim {
 namespace {
 
 // Tolerance for the length and orthogonality of unit vectors in float32.
 constexpr float kUnitTolerance = 1e-4F;
-
-constexpr float kPi = 3.14159265F;
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -153,8 +152,8 @@ void SceneCheck::checkCameras() const
         require(isUnit(camera.right) && isUnit(camera.up) && isUnit(camera.forward) &&
                     glm::length(glm::cross(camera.right, camera.up) + camera.forward) <= kUnitTolerance,
                 MessageId::Degenerate, "camera", i, "axes", "that are not a right-handed orthonormal frame");
-        require(!perspective || (camera.yfov > 0.0F && camera.yfov < kPi), MessageId::OutOfRange, "camera", i, "a field of view",
-                "outside 0 to pi");
+        require(!perspective || (camera.yfov > 0.0F && camera.yfov < std::numbers::pi_v<float>), MessageId::OutOfRange, "camera", i,
+                "a field of view", "outside 0 to pi");
         require(perspective || (camera.halfWidth != 0.0F && camera.halfHeight != 0.0F && std::isfinite(camera.halfWidth) &&
                                 std::isfinite(camera.halfHeight)),
                 MessageId::OutOfRange, "camera", i, "a width or height", "that is 0 or not finite");

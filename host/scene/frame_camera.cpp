@@ -18,7 +18,7 @@ struct Corner {
     double lateral, nearer;
 };
 
-using Corners = std::vector<Corner>;
+using FrameCorners = std::vector<Corner>;
 
 // Where the camera stands on that axis, if corners at the least and the greatest slope against the view direction are to be as steep as
 // each other: `lateral`. `distance` of the camera from the centre: where this slope is `slope`.
@@ -26,7 +26,7 @@ struct Place {
     double lateral, distance;
 };
 
-Place fit(const Corners& corners, double slope)
+Place fit(const FrameCorners& corners, double slope)
 {
     double high = -std::numeric_limits<double>::infinity(), low = -high;
     for (const Corner& corner : corners) {
@@ -37,7 +37,7 @@ Place fit(const Corners& corners, double slope)
 }
 
 // Where the shape's picture is in the middle for a camera at `distance`, which is at least that of fit(corners, slope).
-double centered(const Corners& corners, double slope, double distance)
+double centered(const FrameCorners& corners, double slope, double distance)
 {
     double flat = 0.0, steep = slope;
     for (int i = 0; i < 100; ++i) {
@@ -60,7 +60,7 @@ Framing frame(const std::vector<glm::dvec3>& corners, double yfov, double aspect
     framing.backward = glm::normalize(glm::dvec3(0.4, 0.3, 1.0));
     framing.right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), framing.backward));
     framing.up = glm::cross(framing.backward, framing.right);
-    Corners across, upwards;
+    FrameCorners across, upwards;
     double nearest = 0.0;
     for (const glm::dvec3& corner : corners) {
         const double nearer = glm::dot(corner, framing.backward);

@@ -7,7 +7,7 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // A rectangle on the sphere with soft edges. Angles in degrees: azimuth from +z towards +x, elevation from the horizon.
 struct Softbox {
@@ -36,7 +36,7 @@ double radianceAt(double azimuth, double elevation)
 {
     double radiance = 0.12 + 0.22 * smoothStep((elevation + 30.0) / 120.0);
     for (const Softbox& box : kSoftboxes) {
-        const double across = std::remainder(azimuth - box.azimuth, 360.0) * std::cos(elevation * kPi / 180.0);
+        const double across = std::remainder(azimuth - box.azimuth, 360.0) * std::cos(elevation * pi / 180.0);
         radiance +=
             box.radiance * inside(box.halfWidth >= 180.0 ? 0.0 : across, box.halfWidth) * inside(elevation - box.elevation, box.halfHeight);
     }

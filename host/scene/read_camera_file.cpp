@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace glim {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 class EntryReader {
 public:
@@ -39,7 +39,7 @@ public:
         }
         if (entry_.contains("yfov")) {
             result.yfov = readNumber("yfov");
-            if (!(*result.yfov > 0.0 && *result.yfov < kPi)) {
+            if (!(*result.yfov > 0.0 && *result.yfov < pi)) {
                 refuse(MessageId::OutOfRange, {part::place(place_ + ".yfov"), " is ", part::value(entry_["yfov"].dump()), "; expected ",
                                                part::expected("radians between 0 and pi")});
             }

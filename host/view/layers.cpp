@@ -113,7 +113,7 @@ glm::vec3 colorOf(std::uint32_t id)
 // Where alpha is known and 0, nothing was met.
 float depthOf(float depth, float alpha) { return alpha > 0.0F && !(std::abs(depth) >= kFarthestDepth) ? depth : 0.0F; }
 
-float meanOf(const glm::vec3& value) { return (value.x + value.y + value.z) / 3.0F; }
+float meanOfChannels(const glm::vec3& value) { return (value.x + value.y + value.z) / 3.0F; }
 
 }  // namespace
 
@@ -169,7 +169,7 @@ std::optional<DisplayRange> getRange(const Image& image, const Layer& layer, con
     }
     std::vector<float> numbers;
     for (const glm::vec3& value : values.radiance) {
-        const float number = isDepth ? value.x : meanOf(value);
+        const float number = isDepth ? value.x : meanOfChannels(value);
         if (std::isfinite(number) && !(isDepth && number == 0.0F)) {
             numbers.push_back(number);
         }

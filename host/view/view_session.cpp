@@ -114,10 +114,10 @@ void ViewSession::follow(const Gesture& gesture)
 {
     switch (gesture.kind) {
     case Gesture::Kind::Orbit:
-    case Gesture::Kind::Pan: place({placement_.zoom, placement_.corner + gesture.motion}); break;
-    case Gesture::Kind::Dolly: place(zoomAt(placement_, gesture.position, std::exp2(gesture.notches / kNotchesToDouble))); break;
+    case Gesture::Kind::Pan: place({viewport_.zoom, viewport_.corner + gesture.motion}); break;
+    case Gesture::Kind::Dolly: place(zoomAt(viewport_, gesture.position, std::exp2(gesture.notches / kNotchesToDouble))); break;
     case Gesture::Kind::Click:
-        if (const auto pixel = pixelAt(placement_, gesture.position, films_.size())) {
+        if (const auto pixel = pixelAt(viewport_, gesture.position, films_.size())) {
             print(*pixel);
         }
         return;
@@ -157,12 +157,12 @@ void ViewSession::resize()
         return;
     }
     painter_.resize(size);
-    place(isFitted_ ? fit(films_.size(), size) : placement_);
+    place(isFitted_ ? fit(films_.size(), size) : viewport_);
 }
 
-void ViewSession::place(const Placement& placement)
+void ViewSession::place(const Viewport& viewport)
 {
-    placement_ = placement;
+    viewport_ = viewport;
     laid_ = drawn_ = false;
     changed_ = true;
 }
@@ -282,7 +282,7 @@ void ViewSession::draw()
         const bool averages = as != ShownAs::Ids && as != ShownAs::Depth;  // means of ids, or of a depth and nothing, mean nothing
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (differs || side_ == (i == 0 ? Side::A : Side::B)) {
-                layUnder(values_[i], placement_, painter_.size(), averages, under_[i]);
+                layUnder(values_[i], viewport_, painter_.size(), averages, under_[i]);
             }
         }
         painter_.setValues(under_[side_ == Side::B ? 1 : 0]);
@@ -291,7 +291,7 @@ void ViewSession::draw()
         }
         laid_ = true;
     }
-    const Rectangle covered = coveredBy(placement_, films_.size(), painter_.size());
+    const Rectangle covered = coveredBy(viewport_, films_.size(), painter_.size());
     ViewPass pass{};
     pass.left = covered.low.x;
     pass.top = covered.low.y;
@@ -358,7 +358,7 @@ ViewFigures ViewSession::figures() const
         figures.lines.push_back(std::string(i == 0 ? "A " : "B ") + films_.path(i).filename().string());
     }
     const auto low = static_cast<double>(shown_.range.low), high = static_cast<double>(shown_.range.high);
-    figures.lines.push_back(formatted("%ux%u at %.4g %%", films_.size().x, films_.size().y, 100.0 * placement_.zoom));
+    figures.lines.push_back(formatted("%ux%u at %.4g %%", films_.size().x, films_.size().y, 100.0 * viewport_.zoom));
     if (side_ == Side::Difference) {
         const double full = shown_.difference->scale * std::exp2(-gain_);
         const char* unit = shown_.difference->relative > 0.0 ? ", relative" : "";
@@ -378,7 +378,7 @@ ViewFigures ViewSession::figures() const
 // The numbers of the layer under the mouse.
 std::vector<std::string> ViewSession::describePixel() const
 {
-    const auto place = pointer_ ? pixelAt(placement_, *pointer_, films_.size()) : std::nullopt;
+    const auto place = pointer_ ? pixelAt(viewport_, *pointer_, films_.size()) : std::nullopt;
     const std::size_t pixel = place ? std::size_t{place->y} * films_.size().x + place->x : 0;
     std::vector<std::string> lines{
         place ? formatted("pixel (%u, %u)", place->x + films_.image(0).columnsLeft, place->y + films_.image(0).rowsAbove) : "pixel -"};

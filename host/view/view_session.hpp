@@ -3,10 +3,10 @@
 
 #include "host/clock.hpp"
 #include "host/view/painter.hpp"
-#include "host/view/placement.hpp"
 #include "host/view/view.hpp"
 #include "host/view/view_panel.hpp"
 #include "host/view/viewed_films.hpp"
+#include "host/view/viewport.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
@@ -42,7 +42,7 @@ private:
     void follow(const Gesture& gesture);
     void press(char key);
     void resize();
-    void place(const Placement& placement);
+    void place(const Viewport& viewport);
     void chooseLayer(std::size_t index);
     void chooseSide(Side side);
     void change(const ViewChoices& wanted);
@@ -77,10 +77,10 @@ private:
     bool exposureIsAuto_ = false;
     std::array<Picture, 2> values_;  // of the layer, A's and B's; empty where a film has none
     Shown shown_;
-    Placement placement_;
+    Viewport viewport_;
     bool isFitted_ = true;
     std::array<std::vector<glm::vec3>, 2> under_;  // the values under the window's pixels
-    bool laid_ = false;                            // whether they are those of the present layer and placement
+    bool laid_ = false;                            // whether they are those of the present layer and viewport
     bool drawn_ = false;                           // whether the picture is
 
     Gestures gestures_;

@@ -73,7 +73,7 @@ TEST(Controls, FrameSeesTheWholeSphere)
 {
     Camera camera;
     camera.yfov = 1.0F;
-    const Bounds bounds{{4.0, 5.0, 6.0}, 2.0};
+    const BoundingSphere bounds{{4.0, 5.0, 6.0}, 2.0};
     for (const double aspect : {0.5, 1.0, 2.0}) {
         const Pose framed = frame(kPose, bounds, camera, aspect);
         const double half = std::atan(std::tan(0.5) * std::min(1.0, aspect));

@@ -11,7 +11,9 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glim {
@@ -196,9 +198,76 @@ void findWordDefects(const Source& source, std::vector<std::string>& defects)
     }
 }
 
+// What an unnamed namespace declares at the start of a line.
+std::set<std::string> findOwnNames(const std::string& text)
+{
+    static const std::regex kName(
+        R"(^(?:\[\[\w+\]\] )?(?!template|static_assert|namespace|using [\w:]+;)\w[^=(;{]*?[ *&]([:\w]+)(?:\[\w*\])? ?[=({;].*)");
+    static const std::regex kType(R"(^(?:struct|class|enum class|enum|using) (\w+)(?: .*)?)");
+    std::set<std::string> names;
+    std::istringstream lines(text);
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+        inside = line == "namespace {" || (inside && line != "}  // namespace");
+        std::smatch match;
+        if (inside && (std::regex_match(line, match, kType) || std::regex_match(line, match, kName)) &&
+            match[1].str().find("::") == std::string::npos) {
+            names.insert(match[1]);
+        }
+    }
+    return names;
+}
+
+std::set<std::string> findLocalConstants(const std::string& text)
+{
+    static const std::regex kLocal(R"(^ +(?:static )?constexpr [^=]*?(k\w+)(?:\[\w*\])? = .*)");
+    std::set<std::string> names;
+    std::istringstream lines(text);
+    std::smatch match;
+    for (std::string line; std::getline(lines, line);) {
+        if (std::regex_match(line, match, kLocal)) {
+            names.insert(match[1]);
+        }
+    }
+    return names;
+}
+
+// Files of a folder are compiled several at once (CMakeLists.txt), so that their names must differ, and no local constant may hide one.
+void findNameDefects(const std::vector<Source>& sources, std::vector<std::string>& defects)
+{
+    std::map<std::pair<std::string, std::string>, std::string> owners;  // of each folder and name
+    for (const Source& source : sources) {
+        const std::filesystem::path path(source.path);
+        if (!startsWith(source.path, "host/")) {
+            continue;
+        }
+        if (path.extension() == ".hpp" && source.text.find("\nnamespace {") != std::string::npos) {
+            defects.push_back(source.path + ": a header has an unnamed namespace");
+        }
+        if (path.extension() != ".cpp") {
+            continue;
+        }
+        for (const std::string& name : findOwnNames(source.text)) {
+            const auto [owner, isNew] = owners.emplace(std::pair(path.parent_path().string(), name), source.path);
+            if (!isNew) {
+                defects.push_back(source.path + ": " + owner->second + " has a name " + name + " too");
+            }
+        }
+    }
+    for (const Source& source : sources) {
+        for (const std::string& name : findLocalConstants(source.text)) {
+            const auto owner = owners.find({std::filesystem::path(source.path).parent_path().string(), name});
+            if (owner != owners.end() && owner->second != source.path) {
+                defects.push_back(source.path + ": " + owner->second + " has a name " + name + " too");
+            }
+        }
+    }
+}
+
 std::vector<std::string> findDefects(const std::vector<Source>& sources)
 {
     std::vector<std::string> defects;
+    findNameDefects(sources, defects);
     for (const Source& source : sources) {
         findIncludeDefects(source, defects);
         findWordDefects(source, defects);
@@ -305,6 +374,29 @@ TEST(Includes, EveryViolationIsFound)
          }) {
         EXPECT_EQ(findDefects({{path, text}}).size(), 1U) << path << "\n" << text;
     }
+}
+
+TEST(Includes, NamesDifferWithinAFolder)
+{
+    const auto inUnnamed = [](const std::string& text) { return "namespace glim {\nnamespace {\n\n" + text + "\n}  // namespace\n}\n"; };
+    for (const auto& [one, other] : {
+             Example{"struct Part {", "struct Part {"},
+             Example{"enum class Part {", "class Part : public Whole {"},
+             Example{"constexpr double kMax = 1.0;", "constexpr float kMax = 2.0F;"},
+             Example{"const char* const kNames[] = {", "const std::string kNames = f();"},
+             Example{"double meanOf(double x)", "glm::vec3 meanOf(const glm::vec3& x) { return x; }"},
+             Example{"[[noreturn]] void refuse(int x)", "[[noreturn]] void refuse(float x)"},
+             Example{"constexpr double kMax = 1.0;", "void f()\n{\n    constexpr double kMax = 1.0;"},
+         }) {
+        EXPECT_EQ(findDefects({{"host/bvh/a.cpp", inUnnamed(one)}, {"host/bvh/b.cpp", inUnnamed(other)}}).size(), 1U) << one;
+        EXPECT_EQ(findDefects({{"host/bvh/a.cpp", inUnnamed(one)}, {"host/image/b.cpp", inUnnamed(other)}}).size(), 0U) << one;
+        EXPECT_EQ(findDefects({{"host/bvh/a.cpp", inUnnamed(one)}, {"host/image/b.cpp", other}}).size(), 0U) << one;
+    }
+    EXPECT_EQ(findDefects({{"host/bvh/a.hpp", inUnnamed("")}}).size(), 1U);
+    EXPECT_EQ(
+        findDefects({{"host/bvh/a.cpp", inUnnamed("using std::numbers::pi;")}, {"host/bvh/b.cpp", inUnnamed("using std::numbers::pi;")}})
+            .size(),
+        0U);
 }
 
 }  // namespace

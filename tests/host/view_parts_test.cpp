@@ -3,8 +3,8 @@
 #include "host/image/exr.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/view/layers.hpp"
-#include "host/view/placement.hpp"
 #include "host/view/viewed_films.hpp"
+#include "host/view/viewport.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -184,9 +184,9 @@ Picture numbered(std::uint32_t width, std::uint32_t height)
     return picture;
 }
 
-TEST(PlacementTest, FitsInTheMiddle)
+TEST(ViewportTest, FitsInTheMiddle)
 {
-    const Placement larger = fit({100, 50}, {350, 400}), smaller = fit({400, 100}, {200, 300});
+    const Viewport larger = fit({100, 50}, {350, 400}), smaller = fit({400, 100}, {200, 300});
     EXPECT_EQ(larger.zoom, 3.0) << "whole pixels";
     EXPECT_EQ(larger.corner, glm::dvec2(25, 125));
     EXPECT_EQ(smaller.zoom, 0.5);
@@ -195,45 +195,45 @@ TEST(PlacementTest, FitsInTheMiddle)
     EXPECT_EQ(actualSize({100, 50}, {350, 400}).corner, glm::dvec2(125, 175));
 }
 
-TEST(PlacementTest, ZoomKeepsThePointUnderTheMouse)
+TEST(ViewportTest, ZoomKeepsThePointUnderTheMouse)
 {
-    Placement placement{2.0, {10.0, 20.0}};
+    Viewport viewport{2.0, {10.0, 20.0}};
     const glm::dvec2 mouse(131.0, 77.0);
-    const auto before = (mouse - placement.corner) / placement.zoom;
+    const auto before = (mouse - viewport.corner) / viewport.zoom;
     for (const double factor : {1.5, 8.0, 8.0, 0.001, 0.1, 64.0}) {
-        placement = zoomAt(placement, mouse, factor);
-        EXPECT_LT(glm::length((mouse - placement.corner) / placement.zoom - before), 1e-9);
-        EXPECT_GE(placement.zoom, 1.0 / 64.0);
-        EXPECT_LE(placement.zoom, 64.0);
+        viewport = zoomAt(viewport, mouse, factor);
+        EXPECT_LT(glm::length((mouse - viewport.corner) / viewport.zoom - before), 1e-9);
+        EXPECT_GE(viewport.zoom, 1.0 / 64.0);
+        EXPECT_LE(viewport.zoom, 64.0);
     }
     EXPECT_EQ(zoomAt({0.01, {}}, mouse, 0.5).zoom, 0.01) << "a picture that had to be smaller to fit stays";
 }
 
-TEST(PlacementTest, FindsThePixelUnderThePoint)
+TEST(ViewportTest, FindsThePixelUnderThePoint)
 {
-    const Placement placement{4.0, {10.0, 20.0}};
-    EXPECT_EQ(pixelAt(placement, {10.5, 20.5}, {5, 5}), glm::uvec2(0, 0));
-    EXPECT_EQ(pixelAt(placement, {29.5, 39.5}, {5, 5}), glm::uvec2(4, 4));
-    EXPECT_FALSE(pixelAt(placement, {9.5, 20.5}, {5, 5}));
-    EXPECT_FALSE(pixelAt(placement, {30.5, 20.5}, {5, 5}));
-    EXPECT_FALSE(pixelAt(placement, {10.5, 40.5}, {5, 5}));
+    const Viewport viewport{4.0, {10.0, 20.0}};
+    EXPECT_EQ(pixelAt(viewport, {10.5, 20.5}, {5, 5}), glm::uvec2(0, 0));
+    EXPECT_EQ(pixelAt(viewport, {29.5, 39.5}, {5, 5}), glm::uvec2(4, 4));
+    EXPECT_FALSE(pixelAt(viewport, {9.5, 20.5}, {5, 5}));
+    EXPECT_FALSE(pixelAt(viewport, {30.5, 20.5}, {5, 5}));
+    EXPECT_FALSE(pixelAt(viewport, {10.5, 40.5}, {5, 5}));
 }
 
 // Wherever the picture lies, the window's pixels over it have the value that pixelAt names, and no other is written.
-TEST(PlacementTest, LaysTheValuesOfTheSamePixels)
+TEST(ViewportTest, LaysTheValuesOfTheSamePixels)
 {
     const Picture picture = numbered(7, 5);
     const glm::uvec2 window(40, 30), size(7, 5);
-    for (const Placement& placement : {Placement{1.0, {0, 0}}, Placement{3.0, {4, 5}}, Placement{2.3, {-6.4, 11.7}},
-                                       Placement{64.0, {-100, -100}}, Placement{1.0, {100, 0}}, Placement{5.0, {30.5, 20.25}}}) {
+    for (const Viewport& viewport : {Viewport{1.0, {0, 0}}, Viewport{3.0, {4, 5}}, Viewport{2.3, {-6.4, 11.7}},
+                                     Viewport{64.0, {-100, -100}}, Viewport{1.0, {100, 0}}, Viewport{5.0, {30.5, 20.25}}}) {
         std::vector<glm::vec3> values(std::size_t{window.x} * window.y, glm::vec3(-1.0F));
-        layUnder(picture, placement, window, true, values);
-        const Rectangle covered = coveredBy(placement, size, window);
+        layUnder(picture, viewport, window, true, values);
+        const Rectangle covered = coveredBy(viewport, size, window);
         for (std::uint32_t y = 0; y < window.y; ++y) {
             for (std::uint32_t x = 0; x < window.x; ++x) {
-                const auto pixel = pixelAt(placement, glm::dvec2(x, y) + 0.5, size);
+                const auto pixel = pixelAt(viewport, glm::dvec2(x, y) + 0.5, size);
                 const glm::vec3 expected = pixel ? glm::vec3(*pixel, 0) : glm::vec3(-1.0F);
-                EXPECT_EQ(values[std::size_t{y} * window.x + x], expected) << x << ", " << y << " at zoom " << placement.zoom;
+                EXPECT_EQ(values[std::size_t{y} * window.x + x], expected) << x << ", " << y << " at zoom " << viewport.zoom;
                 const bool inside = x >= covered.low.x && x < covered.high.x && y >= covered.low.y && y < covered.high.y;
                 EXPECT_EQ(inside, pixel.has_value());
             }
@@ -242,7 +242,7 @@ TEST(PlacementTest, LaysTheValuesOfTheSamePixels)
 }
 
 // Of a picture made smaller each pixel counts once: the means add up to the picture's.
-TEST(PlacementTest, MakesSmallerByTheMean)
+TEST(ViewportTest, MakesSmallerByTheMean)
 {
     const Picture picture = numbered(12, 9);
     std::vector<glm::vec3> values;
@@ -263,7 +263,7 @@ TEST(PlacementTest, MakesSmallerByTheMean)
 }
 
 // Of ids and depths, whose means are nothing.
-TEST(PlacementTest, MakesSmallerByTheCentreWhereMeansAreNothing)
+TEST(ViewportTest, MakesSmallerByTheCentreWhereMeansAreNothing)
 {
     std::vector<glm::vec3> values;
     layUnder(numbered(12, 9), {1.0 / 3.0, {0, 0}}, {4, 3}, false, values);
@@ -272,7 +272,7 @@ TEST(PlacementTest, MakesSmallerByTheCentreWhereMeansAreNothing)
     }
 }
 
-TEST(PlacementTest, APictureThinnerThanAPixelIsSeen)
+TEST(ViewportTest, APictureThinnerThanAPixelIsSeen)
 {
     const Rectangle covered = coveredBy(fit({3000, 1}, {640, 480}), {3000, 1}, {640, 480});
     EXPECT_EQ(covered.high - covered.low, glm::uvec2(640, 1));

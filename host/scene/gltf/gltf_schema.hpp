@@ -17,7 +17,7 @@ constexpr double kMaxWhole = 9007199254740992.0;  // 2^53
 constexpr double kMaxInt = 2147483647.0;          // what tinygltf has room for
 
 // How far a number may be out of its range by rounding: a step of 8 bits, in which many tools keep colours and factors.
-constexpr double kRounding = 0.004;
+constexpr double kFileRounding = 0.004;
 constexpr const char* kClamped = "numbers that rounding has put out of their range are clamped";
 
 // How far the last row of a matrix may be from 0 0 0 1 by rounding.
@@ -30,8 +30,8 @@ struct SchemaRule {
     const char* target = nullptr;  // Index: path of the array that is indexed; OneOf: the words, separated by ", "
     std::size_t count = 0;         // Numbers: how many
     double min = -DBL_MAX, max = DBL_MAX;
-    double rounding = kRounding;  // Number, Numbers: what is out of range by less is clamped
-    bool zeroIsNone = false;      // exporters write 0 where there is no value
+    double rounding = kFileRounding;  // Number, Numbers: what is out of range by less is clamped
+    bool zeroIsNone = false;          // exporters write 0 where there is no value
 };
 
 namespace schema {

@@ -8,7 +8,7 @@
 namespace glim {
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNoParent = -1;
 
 // A matrix counts as singular if its determinant is below this fraction of that of orthogonal columns of the same lengths.
 constexpr double kSingular = 1e-12;
@@ -16,11 +16,11 @@ constexpr double kSingular = 1e-12;
 std::vector<int> findParents(const GltfFile& file)
 {
     const std::vector<tinygltf::Node>& nodes = file.model.nodes;
-    std::vector<int> parents(nodes.size(), kNone);
+    std::vector<int> parents(nodes.size(), kNoParent);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         for (const int child : nodes[i].children) {
             int& parent = parents[static_cast<std::size_t>(child)];
-            if (parent != kNone) {
+            if (parent != kNoParent) {
                 refuse(file, MessageId::Duplicate,
                        {part::place(nodeLabel(file, static_cast<std::size_t>(child))),
                         " is a child of nodes[" + std::to_string(parent) + "] and of ", part::value("nodes[" + std::to_string(i) + "]"),
@@ -35,15 +35,15 @@ std::vector<int> findParents(const GltfFile& file)
 // Each node has one parent at most, so walking upwards finds every cycle.
 void checkAcyclic(const GltfFile& file, const std::vector<int>& parents)
 {
-    std::vector<int> walkThatMet(parents.size(), kNone);
+    std::vector<int> walkThatMet(parents.size(), kNoParent);
     for (std::size_t start = 0; start < parents.size(); ++start) {
         const auto walk = static_cast<int>(start);
         int at = walk;
-        while (at != kNone && walkThatMet[static_cast<std::size_t>(at)] == kNone) {
+        while (at != kNoParent && walkThatMet[static_cast<std::size_t>(at)] == kNoParent) {
             walkThatMet[static_cast<std::size_t>(at)] = walk;
             at = parents[static_cast<std::size_t>(at)];
         }
-        if (at != kNone && walkThatMet[static_cast<std::size_t>(at)] == walk) {
+        if (at != kNoParent && walkThatMet[static_cast<std::size_t>(at)] == walk) {
             refuse(file, MessageId::Cycle,
                    {part::place(nodeLabel(file, static_cast<std::size_t>(at))), " is its own ancestor; expected ",
                     part::expected("a hierarchy without cycles")});
@@ -65,7 +65,7 @@ std::vector<int> findRoots(const GltfFile& file, const LoadOptions& options, con
     }
     std::vector<int> roots;
     for (std::size_t i = 0; i < parents.size(); ++i) {
-        if (parents[i] == kNone) {
+        if (parents[i] == kNoParent) {
             roots.push_back(static_cast<int>(i));
         }
     }
@@ -78,7 +78,7 @@ void noteParentsOfRoots(const GltfFile& file, const std::vector<int>& roots, con
 {
     for (const int root : roots) {
         const auto index = static_cast<std::size_t>(root);
-        if (parents[index] != kNone) {
+        if (parents[index] != kNoParent) {
             warnings.add(MessageId::ParentTransformIgnored,
                          "roots of the scene are drawn without the transforms of their parents, which the scene does not hold",
                          nodeLabel(file, index));
@@ -203,7 +203,7 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
 std::vector<glm::dmat4> worldFromNodes(const GltfFile& file, const std::vector<std::size_t>& nodes)
 {
     const std::vector<int> parents = findParents(file);
-    std::map<int, glm::dmat4> worlds{{kNone, glm::dmat4(1.0)}};
+    std::map<int, glm::dmat4> worlds{{kNoParent, glm::dmat4(1.0)}};
     std::vector<glm::dmat4> result;
     for (const std::size_t node : nodes) {
         std::vector<int> chain;

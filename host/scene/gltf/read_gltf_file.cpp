@@ -254,17 +254,17 @@ bool isNearest(const json& sampler)
 // Filters and wraps of no meaning to glTF are those of its defaults; a magFilter with mipmaps is the filter within a level.
 void warnOfSamplers(const json& document, Warnings& warnings)
 {
-    constexpr int kNone = 0;
+    constexpr int kUnset = 0;
     const std::pair<const char*, std::vector<int>> members[] = {
-        {"magFilter", {kNone, kNearest, kLinear}},
-        {"minFilter", {kNone, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
-        {"wrapS", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
-        {"wrapT", {kNone, kRepeat, kClampToEdge, kMirroredRepeat}},
+        {"magFilter", {kUnset, kNearest, kLinear}},
+        {"minFilter", {kUnset, kNearest, kLinear, kNearestMipmapNearest, kLinearMipmapNearest, kNearestMipmapLinear, kLinearMipmapLinear}},
+        {"wrapS", {kUnset, kRepeat, kClampToEdge, kMirroredRepeat}},
+        {"wrapT", {kUnset, kRepeat, kClampToEdge, kMirroredRepeat}},
     };
     std::size_t index = 0;
     for (const json& sampler : document.value("samplers", json::array())) {
         for (const auto& [member, known] : members) {
-            const int value = sampler.value(member, kNone);
+            const int value = sampler.value(member, kUnset);
             if (std::find(known.begin(), known.end(), value) == known.end()) {
                 warnings.add(MessageId::UnknownSampler,
                              "filters and wraps that glTF does not know there count as the nearest that it knows",

@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace glim {
 namespace {
 
-constexpr const char* kName = "EXT_lights_image_based";
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
+
+constexpr const char* kImageLight = "EXT_lights_image_based";
 
 // Linear texels, rows from the top. Seen from inside the cube they are not mirrored: the extension flips OpenGL's faces about their
 // vertical axes.
@@ -75,8 +77,8 @@ RadianceMap unrollCube(const Cube& cube, const glm::dquat& worldFromCube)
         for (std::uint32_t x = 0; x < map.width; ++x) {
             glm::vec3 sum(0.0F);
             for (int k = 0; k < 4; ++k) {
-                const double azimuth = 2.0 * kPi * ((x + 0.25 + 0.5 * (k % 2)) / map.width - 0.5);
-                const double polar = kPi * (y + 0.25 + 0.5 * (k / 2)) / map.height;
+                const double azimuth = 2.0 * pi * ((x + 0.25 + 0.5 * (k % 2)) / map.width - 0.5);
+                const double polar = pi * (y + 0.25 + 0.5 * (k / 2)) / map.height;
                 const double sine = std::sin(polar);
                 sum += sampleCube(cube, cubeFromWorld * glm::dvec3(std::sin(azimuth) * sine, std::cos(polar), -std::cos(azimuth) * sine));
             }
@@ -125,7 +127,7 @@ Cube readCube(const GltfFile& file, const tinygltf::Value& light, const std::str
     return cube;
 }
 
-glm::dquat readRotation(const GltfFile& file, const tinygltf::Value& light, const std::string& place)
+glm::dquat readLightRotation(const GltfFile& file, const tinygltf::Value& light, const std::string& place)
 {
     if (!light.Has("rotation")) {
         return {1.0, 0.0, 0.0, 0.0};
@@ -144,19 +146,19 @@ glm::dquat readRotation(const GltfFile& file, const tinygltf::Value& light, cons
 std::optional<Environment> readImageLight(const GltfFile& file, std::size_t sceneOfFile, DecodedParts& decoded, Scene& scene,
                                           Warnings& warnings)
 {
-    const auto use = file.model.scenes[sceneOfFile].extensions.find(kName);
+    const auto use = file.model.scenes[sceneOfFile].extensions.find(kImageLight);
     if (use == file.model.scenes[sceneOfFile].extensions.end()) {
         return std::nullopt;
     }
     const int index = use->second.Get("light").GetNumberAsInt();
-    const tinygltf::Value& light = file.model.extensions.at(kName).Get("lights").Get(index);
-    const std::string place = std::string("extensions.") + kName + ".lights[" + std::to_string(index) + "]";
+    const tinygltf::Value& light = file.model.extensions.at(kImageLight).Get("lights").Get(index);
+    const std::string place = std::string("extensions.") + kImageLight + ".lights[" + std::to_string(index) + "]";
     Environment environment;
-    const glm::dquat rotation = readRotation(file, light, place);
+    const glm::dquat rotation = readLightRotation(file, light, place);
     const std::string name =
         place + " " + exactText(rotation.w) + "," + exactText(rotation.x) + "," + exactText(rotation.y) + "," + exactText(rotation.z);
     environment.map = decoded.findMap(name, [&] { return unrollCube(readCube(file, light, place, scene, warnings), rotation); });
-    environment.source = kName;
+    environment.source = kImageLight;
     environment.radiance = glm::vec3(light.Has("intensity") ? static_cast<float>(light.Get("intensity").GetNumberAsDouble()) : 1.0F);
     return environment;
 }

@@ -19,7 +19,7 @@ DecodedImage makeGrey()
     return grey;
 }
 
-std::string getName(const GltfFile& file, std::size_t image)
+std::string getImageName(const GltfFile& file, std::size_t image)
 {
     const EncodedImage& source = file.images[image];
     const bool named = source.name.empty() && !isDataUri(source.uri);
@@ -31,11 +31,11 @@ DecodedImage decodeNamed(const GltfFile& file, std::size_t image, std::span<cons
     try {
         DecodedImage decoded = decodeImage(bytes);
         if (decoded.noEnd) {
-            warnings.add(MessageId::UnterminatedJpeg, "JPEG images without their end marker are drawn", getName(file, image));
+            warnings.add(MessageId::UnterminatedJpeg, "JPEG images without their end marker are drawn", getImageName(file, image));
         }
         return decoded;
     } catch (const InputError& error) {
-        throw InputError(error, {part::file(file.path), ": ", part::place(getName(file, image)), " ", error.what()});
+        throw InputError(error, {part::file(file.path), ": ", part::place(getImageName(file, image)), " ", error.what()});
     }
 }
 
@@ -84,7 +84,7 @@ private:
                     part::expected("less (--max-texture N scales them down)")});
         }
         const auto index = static_cast<std::uint32_t>(scene_.images.size());
-        scene_.images.emplace_back(getName(file_, image), pixels);
+        scene_.images.emplace_back(getImageName(file_, image), pixels);
         images_[{sourceOf(image), isColor}] = index;
         if (decoded_.images[{image, !isColor}] == pixels) {
             images_[{sourceOf(image), !isColor}] = index;
@@ -149,7 +149,7 @@ DecodedImage readImage(const GltfFile& file, std::size_t image, Scene& scene, Wa
         noteFile(file, image, scene);
         return decodeNamed(file, image, bytes, warnings);
     }
-    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, getName(file, image)), warnings);
+    return decodeNamed(file, image, findBytes(file.path, file.buffers, *source.range, getImageName(file, image)), warnings);
 }
 
 void readImages(const GltfFile& file, const LoadOptions& options, const std::vector<bool>& used, DecodedParts& decoded, Scene& scene,

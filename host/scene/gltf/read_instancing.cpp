@@ -10,12 +10,12 @@
 namespace glim {
 namespace {
 
-constexpr const char* kName = "EXT_mesh_gpu_instancing";
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 constexpr const char* kAttributes[] = {"TRANSLATION", "ROTATION", "SCALE"};
 
 std::optional<std::size_t> findAttribute(const GltfFile& file, std::size_t node, const char* attribute)
 {
-    const auto extension = file.model.nodes[node].extensions.find(kName);
+    const auto extension = file.model.nodes[node].extensions.find(kInstancing);
     if (extension == file.model.nodes[node].extensions.end() || !extension->second.Has("attributes") ||
         !extension->second.Get("attributes").Has(attribute)) {
         return std::nullopt;
@@ -31,7 +31,7 @@ std::vector<Value> readAttribute(const GltfFile& file, std::size_t node, const c
     if (!accessor) {
         return {};
     }
-    const std::string place = std::string(attribute) + " of " + kName + " of " + nodeLabel(file, node);
+    const std::string place = std::string(attribute) + " of " + kInstancing + " of " + nodeLabel(file, node);
     if (Value::length() == 4 && file.model.accessors[*accessor].type != TINYGLTF_TYPE_VEC4) {
         refuse(file, MessageId::WrongType, {part::place(place), " has another type; expected ", part::expected("VEC4")});
     }
@@ -94,7 +94,7 @@ std::vector<glm::dmat4> readInstanceTransforms(const GltfFile& file, std::size_t
             const glm::dvec4 q(rotations[i]);
             if (!(glm::dot(q, q) > 0.0)) {
                 refuse(file, MessageId::Degenerate,
-                       {part::place(std::string("ROTATION of ") + kName + " of " + nodeLabel(file, node)), " is ", part::value("0"),
+                       {part::place(std::string("ROTATION of ") + kInstancing + " of " + nodeLabel(file, node)), " is ", part::value("0"),
                         " in element ", std::to_string(i), "; expected ", part::expected("unit quaternions")});
             }
             transform = glm::dmat4(glm::mat3_cast(glm::normalize(glm::dquat(q.w, q.x, q.y, q.z))));

@@ -23,7 +23,7 @@ glm::vec3 readPosition(const GltfFile& file, const PlacedNode& node, const Scene
     return position;
 }
 
-std::string getName(const GltfFile& file, const PlacedNode& node, const std::string& own)
+std::string chooseName(const GltfFile& file, const PlacedNode& node, const std::string& own)
 {
     const std::string& name = file.model.nodes[node.index].name;
     return name.empty() ? own : name;
@@ -33,7 +33,7 @@ std::string getName(const GltfFile& file, const PlacedNode& node, const std::str
 void readCones(const GltfFile& file, const tinygltf::SpotLight& spot, const std::string& place, PunctualLight& light, Warnings& warnings)
 {
     const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
-    if (inner > outer + kRounding * outer) {
+    if (inner > outer + kFileRounding * outer) {
         refuse(file, MessageId::OutOfRange,
                {part::place(place), " has the inner cone angle ", part::value(toText(inner)), "; expected ",
                 part::expected("at most the outer one, " + toText(outer))});
@@ -50,7 +50,7 @@ PunctualLight readLight(const GltfFile& file, const PlacedNode& node, std::size_
     const tinygltf::Light& source = file.model.lights[index];
     const std::string place = label("lights", index, source.name);
     PunctualLight light;
-    light.name = getName(file, node, source.name);
+    light.name = chooseName(file, node, source.name);
     light.position = readPosition(file, node, scene);
     light.direction = -glm::normalize(readAxes(file, node)[2]);
     for (int c = 0; c < 3; ++c) {
@@ -91,7 +91,7 @@ Camera readCamera(const GltfFile& file, const PlacedNode& node, std::size_t inde
 {
     const tinygltf::Camera& source = file.model.cameras[index];
     Camera camera;
-    camera.name = getName(file, node, source.name);
+    camera.name = chooseName(file, node, source.name);
     camera.position = readPosition(file, node, scene);
     readCameraPose(file, node, camera);
     if (glm::determinant(glm::dmat3(node.worldFromNode)) < 0.0) {

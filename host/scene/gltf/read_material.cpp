@@ -165,7 +165,7 @@ void MaterialReader::readTextures(Material& material)
 void MaterialReader::readTransmission(Material& material)
 {
     material.ior = numberOr(source_, "KHR_materials_ior", "ior", 1.5);
-    if (material.ior < 1.0F && 1.0 - static_cast<double>(material.ior) <= kRounding) {
+    if (material.ior < 1.0F && 1.0 - static_cast<double>(material.ior) <= kFileRounding) {
         warnings_.add(MessageId::NumberClamped, kClamped, place_ + " (index of refraction)");
         material.ior = 1.0F;
     }

@@ -7,30 +7,30 @@
 
 namespace glim {
 
-struct Placement {
+struct Viewport {
     double zoom = 1.0;       // pixels of the window for the side of one of the picture
     glm::dvec2 corner{0.0};  // the place in the window of the picture's upper left corner
 };
 
 // The picture in the middle, as large as the window allows. If it is magnified, the zoom is a whole number.
-Placement fit(const glm::uvec2& picture, const glm::uvec2& window);
+Viewport fit(const glm::uvec2& picture, const glm::uvec2& window);
 // The picture in the middle, a pixel for a pixel.
-Placement actualSize(const glm::uvec2& picture, const glm::uvec2& window);
+Viewport actualSize(const glm::uvec2& picture, const glm::uvec2& window);
 // Magnifies by `factor`, within 1/64 and 64; the point of the window stays over its point of the picture.
-Placement zoomAt(const Placement& placement, const glm::dvec2& point, double factor);
+Viewport zoomAt(const Viewport& viewport, const glm::dvec2& point, double factor);
 
 // The picture's pixel under a point of the window; nothing beside the picture.
-std::optional<glm::uvec2> pixelAt(const Placement& placement, const glm::dvec2& point, const glm::uvec2& picture);
+std::optional<glm::uvec2> pixelAt(const Viewport& viewport, const glm::dvec2& point, const glm::uvec2& picture);
 
 // The part of the window that shows the picture: its pixels from `low` to `high`, without `high`. A picture that is thinner than a pixel
 // of the window has one.
 struct Rectangle {
     glm::uvec2 low{0}, high{0};
 };
-Rectangle coveredBy(const Placement& placement, const glm::uvec2& picture, const glm::uvec2& window);
+Rectangle coveredBy(const Viewport& viewport, const glm::uvec2& picture, const glm::uvec2& window);
 
 // The picture's values under the window's pixels, row by row; those beside it are left as they are. A pixel of the window has the value
 // of the picture's pixel at its centre. If the picture is made smaller and `averages`, it has the mean of all that have their centre in it.
-void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values);
+void layUnder(const Picture& picture, const Viewport& viewport, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values);
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-#include "host/view/placement.hpp"
+#include "host/view/viewport.hpp"
 
 #include "host/bvh/parallel_for.hpp"
 
@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kLargestZoom = 64.0;
 
-Placement inTheMiddle(double zoom, const glm::uvec2& picture, const glm::uvec2& window)
+Viewport inTheMiddle(double zoom, const glm::uvec2& picture, const glm::uvec2& window)
 {
     return {zoom, glm::floor(0.5 * (glm::dvec2(window) - zoom * glm::dvec2(picture)))};
 }
 
 // The place in the picture of a point of the window.
-glm::dvec2 placeOf(const Placement& placement, const glm::dvec2& point) { return (point - placement.corner) / placement.zoom; }
+glm::dvec2 placeOf(const Viewport& viewport, const glm::dvec2& point) { return (point - viewport.corner) / viewport.zoom; }
 
 // The pixels of a row or column whose centres lie between two places; where there is none, the one at the middle.
 struct Span {
@@ -49,34 +49,34 @@ glm::vec3 meanOf(const Picture& picture, const Span& columns, const Span& rows)
 
 }  // namespace
 
-Placement fit(const glm::uvec2& picture, const glm::uvec2& window)
+Viewport fit(const glm::uvec2& picture, const glm::uvec2& window)
 {
     const glm::dvec2 ratio = glm::dvec2(window) / glm::dvec2(picture);
     const double zoom = std::min(ratio.x, ratio.y);
     return inTheMiddle(std::min(zoom < 1.0 ? zoom : std::floor(zoom), kLargestZoom), picture, window);
 }
 
-Placement actualSize(const glm::uvec2& picture, const glm::uvec2& window) { return inTheMiddle(1.0, picture, window); }
+Viewport actualSize(const glm::uvec2& picture, const glm::uvec2& window) { return inTheMiddle(1.0, picture, window); }
 
-Placement zoomAt(const Placement& placement, const glm::dvec2& point, double factor)
+Viewport zoomAt(const Viewport& viewport, const glm::dvec2& point, double factor)
 {
-    const double zoom = std::clamp(placement.zoom * factor, std::min(placement.zoom, 1.0 / kLargestZoom), kLargestZoom);
-    return {zoom, point - zoom * placeOf(placement, point)};
+    const double zoom = std::clamp(viewport.zoom * factor, std::min(viewport.zoom, 1.0 / kLargestZoom), kLargestZoom);
+    return {zoom, point - zoom * placeOf(viewport, point)};
 }
 
-std::optional<glm::uvec2> pixelAt(const Placement& placement, const glm::dvec2& point, const glm::uvec2& picture)
+std::optional<glm::uvec2> pixelAt(const Viewport& viewport, const glm::dvec2& point, const glm::uvec2& picture)
 {
-    const glm::dvec2 place = glm::floor(placeOf(placement, point));
+    const glm::dvec2 place = glm::floor(placeOf(viewport, point));
     if (place.x < 0.0 || place.y < 0.0 || place.x >= static_cast<double>(picture.x) || place.y >= static_cast<double>(picture.y)) {
         return std::nullopt;
     }
     return glm::uvec2(place);
 }
 
-Rectangle coveredBy(const Placement& placement, const glm::uvec2& picture, const glm::uvec2& window)
+Rectangle coveredBy(const Viewport& viewport, const glm::uvec2& picture, const glm::uvec2& window)
 {
     // The pixels whose centres lie over the picture.
-    const glm::dvec2 corner = placement.corner, size = placement.zoom * glm::dvec2(picture), end(window);
+    const glm::dvec2 corner = viewport.corner, size = viewport.zoom * glm::dvec2(picture), end(window);
     Rectangle covered{glm::uvec2(glm::clamp(glm::ceil(corner - 0.5), glm::dvec2(0.0), end)),
                       glm::uvec2(glm::clamp(glm::ceil(corner + size - 0.5), glm::dvec2(0.0), end))};
     for (int k = 0; k < 2; ++k) {
@@ -88,23 +88,23 @@ Rectangle coveredBy(const Placement& placement, const glm::uvec2& picture, const
     return covered;
 }
 
-void layUnder(const Picture& picture, const Placement& placement, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values)
+void layUnder(const Picture& picture, const Viewport& viewport, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values)
 {
     values.resize(std::size_t{window.x} * window.y);
-    const Rectangle covered = coveredBy(placement, {picture.width, picture.height}, window);
+    const Rectangle covered = coveredBy(viewport, {picture.width, picture.height}, window);
     // Half of what is averaged, in pixels of the window.
-    const double half = averages && placement.zoom < 1.0 ? 0.5 : 0.0;
+    const double half = averages && viewport.zoom < 1.0 ? 0.5 : 0.0;
     const auto spanAt = [&](std::uint32_t pixel, double corner, std::uint32_t count) {
         const double center = static_cast<double>(pixel) + 0.5 - corner;
-        return computeSpan((center - half) / placement.zoom, (center + half) / placement.zoom, count);
+        return computeSpan((center - half) / viewport.zoom, (center + half) / viewport.zoom, count);
     };
     std::vector<Span> columns;
     for (std::uint32_t x = covered.low.x; x < covered.high.x; ++x) {
-        columns.push_back(spanAt(x, placement.corner.x, picture.width));
+        columns.push_back(spanAt(x, viewport.corner.x, picture.width));
     }
     parallelFor(covered.high.y - covered.low.y, std::thread::hardware_concurrency(), [&](std::size_t row) {
         const auto y = covered.low.y + static_cast<std::uint32_t>(row);
-        const Span rows = spanAt(y, placement.corner.y, picture.height);
+        const Span rows = spanAt(y, viewport.corner.y, picture.height);
         for (std::size_t i = 0; i < columns.size(); ++i) {
             values[std::size_t{y} * window.x + covered.low.x + i] = meanOf(picture, columns[i], rows);
         }
