@@ -1,6 +1,7 @@
 #include "host/cli/command.hpp"
 
 #include "host/message.hpp"
+#include "host/text.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -94,12 +95,42 @@ private:
     std::set<const CLI::Option*> hidden_;
 };
 
+std::vector<std::string> listNames(const CLI::App& app, bool areOptions)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : areOptions ? std::vector<const CLI::App*>{} : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+    }
+    for (const CLI::Option* option : areOptions ? app.get_options() : std::vector<const CLI::Option*>{}) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
 // CLI11 would complain about what is missing even if a word that it does not know explains it.
 void refuseUnknown(const CLI::App& app)
 {
-    if (const std::vector<std::string> unknown = app.remaining(true); !unknown.empty()) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (unknown.empty()) {
+        return;
+    }
+    const std::string name = unknown[0].substr(0, unknown[0].find('='));
+    const std::vector<CLI::App*> given = app.get_subcommands();
+    const bool isOption = name.rfind("--", 0) == 0;
+    const std::string ending = lowerCase(std::filesystem::path(name).extension().string());
+    std::string meant = nearestOf(name.substr(isOption ? 2 : 0), listNames(isOption && !given.empty() ? *given[0] : app, isOption));
+    if (isOption && !meant.empty()) {
+        meant.insert(0, "--");
+    }
+    if (meant.empty() && given.empty() && (ending == ".gltf" || ending == ".glb")) {
+        meant = "render " + escaped(name);
+    }
+    if (meant.empty()) {
         throw UsageError(MessageId::UnknownName, {part::quoted(unknown[0]), " was not expected: no such command, option or argument"});
     }
+    throw UsageError(MessageId::UnknownName, {part::quoted(unknown[0]), " was not expected; did you mean ", part::expected(meant), "?"});
 }
 
 // CLI11's errors have an option and what is wrong in their sentences alone, as in "--spp: At Most 1 required but received 2", "SCENE is

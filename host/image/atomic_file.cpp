@@ -1,8 +1,8 @@
 #include "host/image/atomic_file.hpp"
 
 #include "host/error.hpp"
-#include "host/fingerprint.hpp"
 #include "host/text.hpp"
+#include "host/fingerprint.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -160,13 +160,10 @@ bool isFileAt(const fs::path& path, int descriptor)
     return fstat(descriptor, &open) == 0 && stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-void checkWritable(const fs::path& path, std::string_view extension)
+void checkWritable(const fs::path& path)
 {
     if (path.empty()) {
         throw InputError(MessageId::Missing, {"An empty file name cannot be written."});
-    }
-    if (!extension.empty() && lowerCase(path.extension().string()) != extension) {
-        refuse(path, MessageId::UnknownFormat, {"its name does not end in ", part::expected(std::string(extension))});
     }
     checkTarget(path, followLinks(path));
 }
@@ -175,7 +172,7 @@ AtomicFile::AtomicFile(const fs::path& path)
     : name_(path),
       target_(followLinks(path))
 {
-    checkWritable(path, "");
+    checkWritable(path);
     const fs::path folder = folderOf(target_);
     // Has no name until it is whole, so nothing is left of it whatever happens. Some file systems lack this.
     const bool canLink = access("/proc/self/fd", X_OK) == 0;

@@ -13,9 +13,9 @@
 
 namespace glim {
 
-// Throws InputError if `path` could not be written: it has another extension than `extension` (".exr" in any case; empty allows all),
-// its folder is missing, a folder or a device has its name, or permission is missing. Creates and changes nothing.
-void checkWritable(const std::filesystem::path& path, std::string_view extension);
+// Throws InputError if `path` could not be written: its folder is missing, a folder or a device has its name, or permission is missing.
+// Creates and changes nothing.
+void checkWritable(const std::filesystem::path& path);
 
 // Follows symbolic links, also to a file that does not exist yet. For links in a circle the result is a link.
 std::filesystem::path followLinks(std::filesystem::path path);

@@ -49,7 +49,7 @@ bool canRemember()
     std::error_code ignored;
     std::filesystem::create_directories(cacheFolder(), ignored);
     try {
-        checkWritable(rememberedFile(), ".json");
+        checkWritable(rememberedFile());
     } catch (const InputError&) {
         return false;
     }

@@ -4,8 +4,10 @@
 #include "host/job/output_file.hpp"
 #include "host/job/parse.hpp"
 #include "host/message.hpp"
+#include "host/text.hpp"
 
 #include <cstdio>
+#include <utility>
 
 namespace glim {
 void addLook(OptionTable& table, LookOptions& look, const std::string& picture, const std::string& tone)
@@ -21,6 +23,17 @@ void addPictureFiles(OptionTable& table, PictureFiles& files)
 {
     table.addEach("--png,--image", "P.png", "Also write an sRGB picture: .png, .jpg (quality 95, 4:4:4) or .webp (lossless)",
                   [&files](const OptionValue& value) { files.emplace_back(value.text()); });
+}
+
+void resolveOutput(std::optional<std::filesystem::path>& output, PictureFiles& files)
+{
+    if (output && getPictureKind(*output)) {
+        files.insert(files.begin(), *std::exchange(output, std::nullopt));
+    } else if (output && lowerCase(output->extension().string()) != ".exr") {
+        throw UsageError(MessageId::UnknownFormat,
+                         {part::place("--output"), ": ", part::quoted(*output), ": expected ",
+                          part::expected(std::string("a name that ends in .exr, or a picture's, which ends in ") + kPictureEndings)});
+    }
 }
 
 void resolvePictureFiles(const OptionTable& table, const PictureFiles& files)

@@ -18,6 +18,8 @@ void addLook(OptionTable& table, LookOptions& look, const std::string& picture, 
 
 // --image; --png is its former name.
 void addPictureFiles(OptionTable& table, PictureFiles& files);
+// An `output` whose name is a picture's becomes one of the files, and the film is not kept. Refuses names of an unknown kind.
+void resolveOutput(std::optional<std::filesystem::path>& output, PictureFiles& files);
 // Refuses a look without a file, and files of an unknown kind.
 void resolvePictureFiles(const OptionTable& table, const PictureFiles& files);
 // As checkTarget (output_file.hpp), of each file.

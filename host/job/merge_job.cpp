@@ -15,10 +15,13 @@ void addMergeOptions(OptionTable& table, MergeJob& job)
     table.beginGroup("Picture");
     table.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", job.inputs).require();
     table.beginGroup("Output");
-    table.addPath("-o,--output", "C.exr", "Merged film; it may replace one of the inputs", job.output).require();
+    table.addPath("-o,--output", "C.exr", "Merged film, which may replace an input; or a picture", job.output).require();
     addPictureFiles(table, job.pictures);
     addLook(table, job.look, "the picture", "none");
-    table.onFinished([&table, &job] { resolvePictureFiles(table, job.pictures); });
+    table.onFinished([&table, &job] {
+        resolveOutput(job.output, job.pictures);
+        resolvePictureFiles(table, job.pictures);
+    });
 }
 
 MergedFilm carryOut(const MergeJob& job)

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/atomic_file.hpp"
+#include "host/text.hpp"
 
 namespace fs = std::filesystem;
 
@@ -9,7 +10,11 @@ namespace glim {
 
 void checkTarget(const fs::path& target, std::string_view extension, const std::vector<fs::path>& inputs)
 {
-    checkWritable(target, extension);
+    if (!extension.empty() && lowerCase(target.extension().string()) != extension) {
+        throw UsageError(MessageId::UnknownFormat, {part::file(target), ": cannot be written: its name does not end in ",
+                                                    part::expected(std::string(extension)), "."});
+    }
+    checkWritable(target);
     std::error_code error;
     static_cast<void>(fs::status(target, error));
     if (error == std::errc::filename_too_long) {

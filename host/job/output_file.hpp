@@ -9,7 +9,8 @@
 
 namespace glim {
 
-// To be called before any work. Refuses (InputError) what checkWritable refuses, a folder in which no file can be made after
+// To be called before any work. Refuses a name that does not end in `extension` (UsageError; ".exr" in any case; empty allows all), and
+// (InputError) what checkWritable refuses, a folder in which no file can be made after
 // all, and a target that is one of `inputs`. Leaves no trace.
 void checkTarget(const std::filesystem::path& target, std::string_view extension, const std::vector<std::filesystem::path>& inputs);
 

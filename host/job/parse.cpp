@@ -159,7 +159,10 @@ double parsePercent(const std::string& option, const OptionValue& value)
     }
     const bool isPercent = !text.empty() && text.back() == '%' && parseNumber(text.substr(0, text.size() - 1), percent);
     if (!isPercent || !(percent > 0.0 && percent <= 1000.0)) {
-        refuseValue(option, text, isPercent || value.isNumber(), "more than 0 and at most 1000 percent of the mean, as in 1%");
+        const bool lacksSign = !isPercent && parseNumber(text, percent);
+        refuseValue(option, text, isPercent || value.isNumber(),
+                    lacksSign ? text + "%, with its sign, for so many percent of the mean"
+                              : "more than 0 and at most 1000 percent of the mean, as in 1%");
     }
     return 0.01 * percent;
 }
@@ -265,14 +268,17 @@ SamplePlace parseSample(const OptionValue& value)
     return place;
 }
 
+constexpr double kMaxSeconds = 1e9;  // 30 years
+
 double parseDuration(const std::string& option, const OptionValue& given)
 {
-    const std::string text = given.text() + (given.isNumber() ? "s" : "");
+    double seconds = 0.0;
+    const std::string text = given.text() + (parseNumber(given.text(), seconds) ? "s" : "");
     const double unit = text.empty() ? 0.0 : text.back() == 's' ? 1.0 : text.back() == 'm' ? 60.0 : text.back() == 'h' ? 3600.0 : 0.0;
     double value = 0.0;
     const bool isTime = unit != 0.0 && parseNumber(text.substr(0, text.size() - 1), value);
-    if (!isTime || !(value > 0.0) || !std::isfinite(value)) {
-        refuseValue(option, text, isTime, "a time above 0 with its unit, as in 90s, 5m or 1h");
+    if (!isTime || !(value > 0.0) || !(value * unit <= kMaxSeconds)) {
+        refuseValue(option, given.text(), isTime, "a time above 0 in seconds or with its unit, as in 90, 5m or 1h");
     }
     return value * unit;
 }

@@ -116,8 +116,8 @@ void addSampleCount(OptionTable& table, RenderSettings& settings, const std::str
                   [&settings](const OptionValue& value) {
                       std::tie(settings.sampleBegin, settings.sampleEnd) = parseRange("--samples", value, kMaxSample);
                   });
-    const Option time = addNumber<double>(table, {"--time", "SECONDS", "Stop after this time, at the end of a pass", 1e-3, 1e9, "off"},
-                                          [&settings](double seconds) { settings.seconds = seconds; });
+    const Option time = table.add("--time", "TIME", "Stop after this time, at the end of a pass, as in 90s, 5m or 1h [off]",
+                                  [&settings](const OptionValue& value) { settings.seconds = parseDuration("--time", value); });
     spp.excludes(time).excludes(samples);
 }
 

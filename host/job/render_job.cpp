@@ -43,7 +43,7 @@ void addSequence(OptionTable& table, RenderJob& options)
 void addOutput(OptionTable& table, RenderJob& options)
 {
     table.beginGroup("Output");
-    table.addPath("-o,--output", "OUT.exr", "Scene-linear EXR with layers; required without --replay", options.output).require();
+    table.addPath("-o,--output", "OUT.exr", "Scene-linear EXR with layers, or only a picture: .png, .jpg, .webp", options.output).require();
     addPictureFiles(table, options.pictures);
     addLook(table, options.look, "the picture", "none; neutral in the built-in studio");
     const Option denoise =

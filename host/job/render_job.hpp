@@ -11,7 +11,7 @@
 namespace glim {
 
 struct RenderJob : PictureOptions {
-    std::filesystem::path output;
+    std::optional<std::filesystem::path> output;  // without one the film is not kept
     PictureFiles pictures;
     std::optional<std::filesystem::path> rates, ids, stats;
     SequenceOptions sequence;
@@ -21,6 +21,9 @@ struct RenderJob : PictureOptions {
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;
     ErrorTarget target;
+
+    // By which messages name the render, and which only one process may write: the film's, else the first picture's.
+    const std::filesystem::path& mainFile() const { return output ? *output : pictures.front(); }
 };
 
 // Adds every option of `render` to `table`; they write into `options`, which must outlive it.

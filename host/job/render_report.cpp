@@ -320,7 +320,7 @@ void printSummary(const RenderReport& report, std::ostream& out)
     warnOfExposure(report);
     const RenderStatistics& s = report.statistics;
     const double pixels = static_cast<double>(report.film.pixels.size());
-    out << escaped(report.options.output.string())
+    out << escaped(report.options.mainFile().string())
         << format(": %ux%u, %.4g samples per pixel", report.film.width, report.film.height,
                   static_cast<double>(s.samples + s.resumedSamples) / pixels)
         << (s.resumedSamples > 0 ? format(", of which %.4g resumed,", static_cast<double>(s.resumedSamples) / pixels) : "")

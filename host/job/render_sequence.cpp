@@ -24,7 +24,9 @@ namespace {
 // `inputs`: files that are not to be overwritten.
 void checkTargets(const RenderJob& options, const std::vector<std::filesystem::path>& inputs)
 {
-    checkTarget(options.output, ".exr", inputs);
+    if (options.output) {
+        checkTarget(*options.output, ".exr", inputs);
+    }
     checkPictureTargets(options.pictures, inputs);
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
@@ -81,12 +83,15 @@ std::optional<Look> drawFilm(const RenderJob& options, const Film& film)
 
 void writeFilmOf(const RenderJob& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
 {
+    if (!options.output) {
+        return;
+    }
     if (denoising) {
-        writeFilm(options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+        writeFilm(*options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
     } else if (rendered.checkpoint) {
-        writeFilm(options.output, rendered.film, *rendered.checkpoint);
+        writeFilm(*options.output, rendered.film, *rendered.checkpoint);
     } else {
-        writeFilm(options.output, rendered.film);
+        writeFilm(*options.output, rendered.film);
     }
 }
 
@@ -188,11 +193,10 @@ RenderJob SequenceRenderer::makeOptions(const Shot& shot) const
 {
     RenderJob options = options_;
     if (isSequence_) {
-        options.output = numberedPath(options.output, shot.number);
         for (std::filesystem::path& file : options.pictures) {
             file = numberedPath(file, shot.number);
         }
-        for (std::optional<std::filesystem::path>* file : {&options.rates, &options.ids, &options.stats}) {
+        for (std::optional<std::filesystem::path>* file : {&options.output, &options.rates, &options.ids, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -243,9 +247,9 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
     const PictureFrame frame = framePicture(session_, options);
     if (watch_->signal() != 0) {
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
-                                                             : options.output.string() + " and what follows was not rendered");
+                                                             : options.mainFile().string() + " and what follows was not rendered");
     }
-    const OutputLock lock(options.output);
+    const OutputLock lock(options.mainFile());
     std::optional<StoredFilm> stored;
     if (isSequence_ || options.checkpoint.resume) {
         stored = readOutput(options, frame);
@@ -255,10 +259,10 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
     }
     Renderer& renderer = session_.begin(frame.camera, frame.settings);
     if (stored && options.checkpoint.resume) {
-        resumeFrom(renderer, *std::move(stored), part::file(options.output));
+        resumeFrom(renderer, *std::move(stored), part::file(options.mainFile()));
     }
     stored.reset();
-    CheckpointWriter writer(options.checkpoint, options.output, [&options](Film& film) { labelFilm(film, options); });
+    CheckpointWriter writer(options.checkpoint, options.mainFile(), [&options](Film& film) { labelFilm(film, options); });
     ProgressPrinter progress(options.progress, frame.settings.seconds, frame.settings.pixelCount(), place_);
     RenderedFilm rendered;
     try {
@@ -270,7 +274,7 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
         if (!kept) {
             throw;
         }
-        throw DeviceError(error, {error.what(), " ", part::file(options.output), " has the last checkpoint, of ",
+        throw DeviceError(error, {error.what(), " ", part::file(options.mainFile()), " has the last checkpoint, of ",
                                   exactText(std::round(100.0 * kept->samplesPerPixel) / 100.0), " samples per pixel."});
     }
     progress.finish();
@@ -285,12 +289,12 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
 // The film at --output, if it is of this picture. A film that cannot be resumed is refused; others are rendered anew.
 std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options, const PictureFrame& frame) const
 {
-    if (!isThere(options.output)) {
+    if (!options.output || !isThere(*options.output)) {
         return std::nullopt;
     }
     StoredFilm stored;
     try {
-        stored = readStoredFilm(options.output);
+        stored = readStoredFilm(*options.output);
     } catch (const InputError&) {
         if (options.checkpoint.resume) {
             throw;
@@ -299,7 +303,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
     }
     const std::optional<Message> difference = findOther(stored.film, session_, frame, options);
     if (difference && options.checkpoint.resume) {
-        throw InputError(Message(*difference, {part::file(options.output), ": cannot be resumed: ", difference->sentence, "."}));
+        throw InputError(Message(*difference, {part::file(options.mainFile()), ": cannot be resumed: ", difference->sentence, "."}));
     }
     return difference ? std::nullopt : std::optional(std::move(stored));
 }
@@ -312,12 +316,12 @@ bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) 
     }
     if (!options.denoise) {
         drawFilm(options, stored.film);
-    } else if (const auto radiance = readDenoised(options.output)) {
+    } else if (const auto radiance = readDenoised(*options.output)) {
         drawFilm(options, showDenoised(stored.film, *radiance));
     } else {
         return false;
     }
-    reports_ << escaped(options.output.string()) << ": is whole and was kept\n";
+    reports_ << escaped(options.mainFile().string()) << ": is whole and was kept\n";
     return true;
 }
 
@@ -340,8 +344,8 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     if (watch_->signal() != 0 && session_.renderer().statistics().samples == 0) {
         return finish(watch_->signal(), "no sample was finished, and nothing is written");
     }
-    if (watch_->signal() != 0 && wouldRuin(options.output, film)) {
-        return finish(watch_->signal(), "some pixels had no sample yet, so " + options.output.string() + " is left as it was");
+    if (watch_->signal() != 0 && wouldRuin(options.mainFile(), film)) {
+        return finish(watch_->signal(), "some pixels had no sample yet, so " + options.mainFile().string() + " is left as it was");
     }
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
@@ -377,7 +381,7 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     if (rendered.denoisingError) {
         std::rethrow_exception(rendered.denoisingError);
     }
-    return finish(watch_->signal(), "what was finished is in " + options.output.string());
+    return finish(watch_->signal(), "what was finished is in " + options.mainFile().string());
 }
 
 RenderSession::RenderSession(std::ostream& reports)

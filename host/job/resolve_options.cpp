@@ -87,6 +87,7 @@ bool isWithoutCheckpoints(const RenderJob& job) { return !job.checkpoint.isGiven
 bool isWithoutTarget(const RenderJob& job) { return !job.target.isGiven(); }
 bool isDenoised(const RenderJob& job) { return job.denoise; }
 bool listsSuspects(const RenderJob& job) { return job.settings.suspects > 0; }
+bool keepsNoFilm(const RenderJob& job) { return !job.output && !job.replay; }
 bool isByAllCameras(const RenderJob& job) { return job.camera == "all"; }
 bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
 
@@ -98,6 +99,7 @@ const Rule<RenderJob> kRenderRules[] = {
      "has no effect with --replay, which makes no picture"},
     {{"--replay"}, isReplayOfSequence, MessageId::Conflict, "expected ", "the options of one picture"},
     {{"--frames", "--look-from"}, isByAllCameras, MessageId::Conflict, "needs a single camera; expected ", "its name or index as --camera"},
+    {{"--checkpoint", "--resume"}, keepsNoFilm, MessageId::Requires, "keeps the film in a file; expected ", "--output FILE.exr"},
     {{"--on-checkpoint"}, isWithoutCheckpoints, MessageId::Requires, "without --checkpoint or --resume there are no checkpoints"},
     {{"--resume"}, listsSuspects, MessageId::Conflict, "the brightest samples of earlier runs are not kept; expected ", "no --suspects"},
     {{"--denoised"}, isWithoutTarget, MessageId::Requires, "has no effect without a target; expected ", "--target-rmse or --target-relmse"},
@@ -316,7 +318,7 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
                               std::to_string(longest), " pixels a side; expected ", part::expected("a smaller --size")});
         }
     }
-    if (job.ids && mayBeSame(*job.ids, job.output)) {
+    if (job.ids && job.output && mayBeSame(*job.ids, *job.output)) {
         refuse(table, "--ids", MessageId::Duplicate, {"expected ", part::expected("another file than that of --output")});
     }
 }
@@ -355,6 +357,7 @@ void resolveLight(const OptionTable& table, const PictureOptions& picture)
 void resolveRender(const OptionTable& table, RenderJob& job)
 {
     resolveAnimation(table, job.at || job.sequence.frames);
+    resolveOutput(job.output, job.pictures);
     apply<PictureOptions>(kPictureRules, table, job);
     apply<RenderJob>(kRenderRules, table, job);
     checkNames(table, job);

@@ -127,7 +127,7 @@ TEST(BenchCommandTest, RefusesBeforeAnyWork)
     expectUsage(with({"--light-samples", "4"}), Id::Requires, {{}, "--light-samples", "4", "--direct lights"});
     expectBadInput(with({"--against", (folder / "none.json").string()}), Id::FileMissing, {.file = "none.json"});
     expectBadInput(with({"--against", output}), Id::FileMissing, {.file = "x.json"});
-    expectBadInput({"bench", "x.gltf", "-o", (folder / "x.txt").string()}, Id::UnknownFormat, {.file = "x.txt", .expected = ".json"});
+    expectUsage({"bench", "x.gltf", "-o", (folder / "x.txt").string()}, Id::UnknownFormat, {.file = "x.txt", .expected = ".json"});
     expectBadInput(with({}), Id::FileMissing, {.file = "no-such-scene.gltf"});
     EXPECT_EQ(folder.entries(), 0);
 }

@@ -100,6 +100,39 @@ TEST(CommandLineTest, RowZeroIsAtTheTopAndAlphaIsCoverage)
     }
 }
 
+TEST(CommandLineTest, AnOutputMayBeAPicture)
+{
+    const ScratchFolder folder;
+    writeText(folder / "lamp.gltf", lampScene());
+    const auto run = [&folder](const Arguments& options) {
+        GlimCall call;
+        call.arguments = {"render", "lamp.gltf", "--size", "8x8", "--spp", "4"};
+        call.arguments.insert(call.arguments.end(), options.begin(), options.end());
+        call.folder = folder.path();
+        return runGlim(call);
+    };
+    ASSERT_EQ(run({"-o", "film.exr", "--image", "beside.png", "--exposure", "-1"}).exitCode, 0);
+    const GlimRun alone = run({"-o", "alone.PNG", "--image", "other.webp", "--exposure", "-1"});
+    EXPECT_EQ(alone.exitCode, 0) << alone.err;
+    EXPECT_TRUE(contains(alone.out, "alone.PNG: 8x8, 4 samples per pixel")) << alone.out;
+    EXPECT_EQ(readFileBytes(folder / "alone.PNG"), readFileBytes(folder / "beside.png"));
+    EXPECT_EQ(folder.entries(), 5) << "the scene, the film and three pictures";
+    const GlimRun merged = runGlim({"merge", folder / "film.exr", "-o", folder / "merged.png", "--exposure", "-1"});
+    EXPECT_EQ(merged.exitCode, 0) << merged.err;
+    EXPECT_EQ(readFileBytes(folder / "merged.png"), readFileBytes(folder / "beside.png"));
+    EXPECT_EQ(folder.entries(), 6);
+    EXPECT_EQ(run({"-o", "same.png", "--image", "same.png"}).exitCode, 2);
+    EXPECT_EQ(run({"-o", "none/x.png"}).exitCode, 1);
+    for (const Arguments& kept : {Arguments{"--resume"}, Arguments{"--checkpoint", "5m"}}) {
+        Arguments options{"-o", "x.png"};
+        options.insert(options.end(), kept.begin(), kept.end());
+        const GlimRun refused = run(options);
+        EXPECT_EQ(refused.exitCode, 2);
+        EXPECT_TRUE(contains(refused.err, "--output FILE.exr")) << refused.err;
+    }
+    EXPECT_EQ(folder.entries(), 6);
+}
+
 TEST(CommandLineTest, ExposureIsAppliedToThePngOnly)
 {
     const Workplace workplace;

@@ -121,7 +121,7 @@ TEST(CommandLineTest, ReplaysOfWhatIsNotThereAreRefused)
     expect({"--replay", "0,0"}, 2, MessageId::Malformed, {{}, "--replay", "0,0", "SAMPLE from 0 to 2147483647"});
     expect({"--replay", "0,0,4", "--spp", "4"}, 2, MessageId::OutOfRange, {{}, "--replay", "0,0,4", "0 to 3"});
     expect({"--replay", "0,0,0", "-o", "x.exr"}, 2, MessageId::Conflict, {.place = "--output", .value = "x.exr"});
-    expect({"--replay", "0,0,0", "--stats", "r.txt"}, 1, MessageId::UnknownFormat, {.file = "r.txt", .expected = ".json"});
+    expect({"--replay", "0,0,0", "--stats", "r.txt"}, 2, MessageId::UnknownFormat, {.file = "r.txt", .expected = ".json"});
     EXPECT_EQ(folder.entries(), 0);
 }
 

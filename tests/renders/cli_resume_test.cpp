@@ -313,7 +313,6 @@ TEST_F(CommandLineResumeTest, WhatCannotBeContinuedIsRefusedAtOnce)
     for (const auto& arguments : std::vector<std::vector<std::string>>{{"--resume", "--adaptive", "course"},
                                                                        {"--checkpoint", "5m", "--adaptive", "course"},
                                                                        {"--on-checkpoint", "true"},
-                                                                       {"--checkpoint", "5"},
                                                                        {"--checkpoint", "0s"},
                                                                        {"--checkpoint", "5 m"},
                                                                        {"--resume", "--suspects", "3"},

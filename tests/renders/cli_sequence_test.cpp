@@ -82,6 +82,14 @@ TEST_F(SequenceTest, FramesAreThePicturesOfTheirTimes)
     EXPECT_FALSE(sameBits(film("f.000.exr").pixels, film("f.010.exr").pixels));
 }
 
+TEST_F(SequenceTest, OfPicturesAlone)
+{
+    writeScene(1);
+    expectDone({"--frames", "0:1", "--spp", "2", "-o", "p.##.png"});
+    EXPECT_EQ(folder_.entries(), 1 + 2);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "p.01.png"));
+}
+
 // The material is diffuse alone at first, then also metal, which other kernels draw.
 TEST_F(SequenceTest, KernelsAreThoseThatEachPictureNeeds)
 {

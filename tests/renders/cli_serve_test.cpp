@@ -309,7 +309,7 @@ TEST_F(ServeTest, FilmsAreMergedAndLookedAt)
     EXPECT_EQ(missing.at("reason").at("file").text(), film("none"));
     EXPECT_EQ(missing.find("film"), nullptr);
     const Json nameless = merge({{"films", film("300:320")}, {"output", ""}});
-    EXPECT_EQ(nameless.at("code").number(), 1.0) << "an empty name is no missing one";
+    EXPECT_EQ(nameless.at("code").number(), 2.0) << "an empty name is no missing one";
     EXPECT_EQ(merge(Json::object()).at("reason").at("id").text(), toText(MessageId::Missing));
 }
 

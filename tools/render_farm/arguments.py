@@ -93,7 +93,9 @@ def exposure(text):
 
 def share(text):
     what = "more than 0 and at most 1000 percent of the mean, as in 1%"
-    return number(text[:-1] if text.endswith("%") else "", 1000, what) / 100
+    if not text.endswith("%"):
+        raise argparse.ArgumentTypeError("cannot use '%s', expected %s" % (text, what))
+    return number(text[:-1], 1000, what) / 100
 
 
 def error(text):
