@@ -10,7 +10,7 @@
 
 namespace glim {
 
-enum class ExitCode : int { Done = 0, BadInput = 1, Usage = 2, Device = 3, HungUp = 129, Interrupted = 130, Terminated = 143 };
+enum class ExitCode : int { Done = 0, BadInput = 1, Usage = 2, Device = 3, Differs = 4, HungUp = 129, Interrupted = 130, Terminated = 143 };
 
 class Error : public std::runtime_error {
 public:

@@ -43,7 +43,8 @@ int main(int argc, char** argv)
     }
     glim::CommandLine line("glim: a path tracer in Vulkan compute kernels", glim::versionText(),
                            "`glim COMMAND --help` lists a command's options.\n"
-                           "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 129, 130 or 143 stopped by a signal.\n"
+                           "Exit codes: 0 done, 1 bad input, 2 usage, 3 device, 4 pictures differ (compare),\n"
+                           "129, 130 or 143 stopped by a signal.\n"
                            "With GLIM_MESSAGES=json in the environment each message is a line of JSON with its id.");
     glim::addRender(line);
     glim::addServe(line);

@@ -41,6 +41,7 @@
     ID(LibraryFailed)                                                     \
     ID(NoWindow)                                                          \
     ID(Stopped) /* by its user */                                         \
+    ID(PicturesDiffer)                                                    \
     /* Warnings: the picture may be other than its user expects */        \
     ID(NoLight)                                                           \
     ID(ExtensionIgnored)                                                  \

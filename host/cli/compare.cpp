@@ -3,12 +3,15 @@
 #include "host/image/exr.hpp"
 #include "host/image/png.hpp"
 #include "host/job/output_file.hpp"
+#include "host/job/parse.hpp"
 #include "host/measure/error_picture.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/render/settings.hpp"
+#include "host/text.hpp"
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -21,7 +24,8 @@ namespace {
 struct CompareOptions {
     std::filesystem::path picture, reference;
     std::optional<std::filesystem::path> variance, difference, differencePng;
-    bool json = false;
+    bool json = false, failsByNoise = false;
+    std::optional<double> maxRmse;  // as a share of the reference's mean
 };
 
 // The film's header if glim wrote the picture.
@@ -71,7 +75,45 @@ void writeDifferences(const CompareOptions& options, const Picture& picture, con
     }
 }
 
-void runCompare(const CompareOptions& options)
+std::string percent(double share) { return format("%.4g%%", 100.0 * share); }
+
+// Says why the pictures fail, if they do.
+ExitCode judge(const CompareOptions& options, const CompareReport& report, const Picture& reference)
+{
+    const MessagePart a = part::file(options.picture.string());
+    bool passes = true;
+    const auto fail = [&passes](std::initializer_list<MessagePart> why) {
+        say(Severity::Error, Message(MessageId::PicturesDiffer, why));
+        passes = false;
+    };
+    if (report.result.nonFinite > 0) {
+        fail({a, ": ", part::value(std::to_string(report.result.nonFinite)), " pixels are not ", part::expected("finite"), "."});
+    }
+    if (options.failsByNoise && report.test && !report.test->agrees()) {
+        fail({a, " and ", options.reference.string(), " differ by more than noise (level 1 %)."});
+    }
+    const double rmse = std::sqrt(report.result.errors.mse) / meanRadiance(reference);
+    if (options.maxRmse && !(rmse <= *options.maxRmse) && report.result.errors.mse > 0.0) {
+        fail({a, ": its RMSE is ", part::value(percent(rmse)), " of the mean of ", options.reference.string(), ", expected ",
+              part::expected("at most " + percent(*options.maxRmse)), "."});
+    }
+    return passes ? ExitCode::Done : ExitCode::Differs;
+}
+
+// Without a test, --fail would let every picture pass.
+void checkTested(const CompareOptions& options, const CompareReport& report)
+{
+    if (!options.failsByNoise || report.test || report.relation == Relation::Identical) {
+        return;
+    }
+    const bool isShared = report.relation == Relation::SharedSamples;
+    throw InputError(MessageId::Requires,
+                     {part::file(options.picture.string()), ": ", part::place("--fail"), " cannot tell noise from other differences: ",
+                      isShared ? "both films have the same samples; expected " : "a picture has no variance; expected ",
+                      part::expected(isShared ? "another --seed" : "films of 33 samples or more, --variance or --max-rmse"), "."});
+}
+
+ExitCode runCompare(const CompareOptions& options)
 {
     checkCompareTargets(options);
     const Image image = readExr(options.picture), referenceImage = readExr(options.reference);
@@ -86,6 +128,7 @@ void runCompare(const CompareOptions& options)
     if (report.relation == Relation::Independent && !picture.variance.empty() && !reference.variance.empty()) {
         report.test = zTest(picture, reference);
     }
+    checkTested(options, report);
     writeDifferences(options, picture, reference, report.result.epsilon);
     if (options.json) {
         printJson(report);
@@ -93,6 +136,7 @@ void runCompare(const CompareOptions& options)
         std::cout << "A = " << escaped(options.picture.string()) << ", B = " << escaped(options.reference.string()) << " (the reference)\n";
         printTable(report);
     }
+    return options.failsByNoise || options.maxRmse ? judge(options, report, reference) : ExitCode::Done;
 }
 
 }  // namespace
@@ -108,14 +152,14 @@ void addCompare(CommandLine& line)
     command.beginGroup("Output");
     command.addPath("--diff", "D.exr", "Write the difference picture - reference", options->difference);
     command.addPath("--diff-png", "D.png", "Draw the relative error: blue too dark, red too bright", options->differencePng);
+    command.addFlag("--fail", "Exit with 4 if the pictures differ by more than noise", options->failsByNoise);
+    command.add("--max-rmse", "P%", "Exit with 4 if the RMSE is more than this share of the reference's mean [off]",
+                [options](const OptionValue& value) { options->maxRmse = parsePercent("--max-rmse", value); });
     command.addFlag("--json", "Print JSON instead of a table; unknown numbers are null", options->json);
     command.setFooter(
         "Prints MSE, RMSE, relMSE, MAPE and the ratio of the means, with intervals. If both variances are known,\n"
         "z-tests say whether the pictures agree up to noise. host/cli/README.md defines the figures.");
-    command.onRun([options] {
-        runCompare(*options);
-        return ExitCode::Done;
-    });
+    command.onRun([options] { return runCompare(*options); });
 }
 
 }  // namespace glim

@@ -1,8 +1,8 @@
 #include "host/image/atomic_file.hpp"
 
 #include "host/error.hpp"
-#include "host/text.hpp"
 #include "host/fingerprint.hpp"
+#include "host/text.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

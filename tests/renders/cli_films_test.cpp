@@ -1,4 +1,5 @@
 // Renders cut short and put together: merging, time limits, signals, repeatability, progress.
+#include "host/measure/compare_images.hpp"
 #include "host/render/film_file.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/run_glim.hpp"
@@ -213,6 +214,44 @@ TEST(CommandLineTest, ComparisonsTestNoNoiseThatIsShared)
     EXPECT_TRUE(compare("more.exr").at("z_test").is_null());
     EXPECT_EQ(compare("other.exr").at("relation"), "independent");
     EXPECT_FALSE(compare("other.exr").at("z_test").is_null());
+}
+
+TEST(CommandLineTest, ComparisonsFailByNoiseAndByRmse)
+{
+    const Films films;
+    films.render("a.exr", {"--samples", "0:64"});
+    films.render("more.exr", {"--samples", "32:128"});
+    films.render("other.exr", {"--samples", "64:192"});
+    films.render("brighter.exr", {"--samples", "64:192", "--set", "/materials/0/pbrMetallicRoughness/baseColorFactor=0.99,0.99,0.99,1"});
+    films.render("few.exr", {"--samples", "64:80"});
+    const auto compare = [&](const Arguments& words) {
+        GlimCall call;
+        call.arguments = {"compare"};
+        call.arguments.insert(call.arguments.end(), words.begin(), words.end());
+        call.folder = films.folder();
+        return runForMessages(call);
+    };
+    const auto relativeRmse = [&](const char* picture, const char* reference) {
+        const json report = json::parse(compare({picture, reference, "--json"}).out);
+        return 100.0 * std::sqrt(report.at("mse").get<double>()) / meanRadiance(makePicture(readFilm(films.folder() / reference)));
+    };
+    constexpr int kDiffers = 4;
+    EXPECT_EQ(compare({"a.exr", "other.exr", "--fail"}).exitCode, 0);
+    EXPECT_EQ(compare({"a.exr", "a.exr", "--fail", "--max-rmse", "0.001%"}).exitCode, 0);
+    EXPECT_EQ(compare({"a.exr", "brighter.exr"}).exitCode, 0) << "not asked";
+    const GlimRun differs = compare({"a.exr", "brighter.exr", "--fail", "--json"});
+    EXPECT_EQ(differs.exitCode, kDiffers);
+    expectSaid(differs, MessageId::PicturesDiffer, {.file = "a.exr"});
+    EXPECT_FALSE(json::parse(differs.out).at("z_test").is_null()) << "the report is printed all the same";
+    const double rmse = relativeRmse("a.exr", "other.exr");
+    EXPECT_EQ(compare({"a.exr", "other.exr", "--max-rmse", std::to_string(1.01 * rmse) + "%"}).exitCode, 0);
+    const std::string less = std::to_string(0.99 * rmse) + "%";
+    const GlimRun tooFar = compare({"a.exr", "other.exr", "--max-rmse", less});
+    EXPECT_EQ(tooFar.exitCode, kDiffers);
+    expectSaid(tooFar, MessageId::PicturesDiffer, {.file = "a.exr", .expected = "at most"});
+    expectRefused(compare({"a.exr", "more.exr", "--fail"}), 1, MessageId::Requires, {.place = "--fail", .expected = "another --seed"});
+    expectRefused(compare({"few.exr", "a.exr", "--fail"}), 1, MessageId::Requires, {.place = "--fail", .expected = "33 samples"});
+    expectRefused(compare({"a.exr", "other.exr", "--max-rmse", "2"}), 2, MessageId::Malformed, {.place = "--max-rmse", .expected = "2%"});
 }
 
 TEST(CommandLineTest, AnEarlySignalSparesThePictureThatIsThere)
