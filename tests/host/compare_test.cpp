@@ -304,8 +304,12 @@ TEST_F(CompareCommand, RefusesBadInput)
     };
     refused({a, folder / "missing.exr"}, MessageId::FileMissing, {.file = "missing.exr"});
     const std::string missing = folder / "missing.exr";  // looked for after the names of what is to be written
-    refused({missing, b, "--diff", folder / "d.png"}, MessageId::UnknownFormat, {.file = "d.png", .expected = ".exr"});
-    refused({missing, b, "--diff-png", folder / "d.exr"}, MessageId::UnknownFormat, {.file = "d.exr", .expected = ".png"});
+    const auto misnamed = [&](const std::string& option, const char* name, const char* ending) {
+        const test::Parts parts{.file = name, .expected = ending};
+        expectRefusal<UsageError>([&] { run({missing, b, option, folder / name}); }, MessageId::UnknownFormat, parts);
+    };
+    misnamed("--diff", "d.png", ".exr");
+    misnamed("--diff-png", "d.exr", ".png");
     Image small = readExr(b);
     small.channels.erase("B");
     writeExr(v, small);

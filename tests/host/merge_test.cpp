@@ -163,11 +163,12 @@ TEST(MergeCommand, RefusesAndWritesNothing)
     writeFilm(a, simulateFilm(0, 256));
     expectRefusal<InputError>([&] { runMerge({a, a, "-o", c}); }, MessageId::Duplicate, {.file = a, .place = "samples", .value = "0:256"});
     expectRefusal<InputError>([&] { runMerge({a, "missing.exr", "-o", c}); }, MessageId::FileMissing, {.file = "missing.exr"});
-    expectRefusal<InputError>(
+    const std::string misnamed = folder / "c.tif";
+    expectRefusal<UsageError>(
         [&] {
-            runMerge({"missing.exr", "-o", folder / "c.jpg"});
+            runMerge({"missing.exr", "-o", misnamed});
         },
-        MessageId::UnknownFormat, {.file = "c.jpg", .expected = ".exr"});
+        MessageId::UnknownFormat, {.place = "--output", .value = misnamed, .expected = ".exr, or a picture's"});
     EXPECT_THROW(runMerge({a}), UsageError);
     EXPECT_THROW(runMerge({a, "-o", c, "--exposure", "1"}), UsageError);
     EXPECT_THROW(runMerge({a, "-o", c, "--png", "c.png", "--exposure", "101"}), UsageError);
