@@ -20,7 +20,7 @@ void addMerge(CommandLine& line)
         "and have the same samples.");
     command.onRun([job] {
         const MergedFilm merged = carryOut(*job);
-        std::cerr << "Merged " << job->inputs.size() << " films into " << escaped(job->output->string()) << ", samples "
+        std::cerr << "Merged " << job->inputs.size() << " films into " << escaped(job->mainFile().string()) << ", samples "
                   << sampleRangesText(merged.film) << ": "
                   << (merged.exact           ? "bit-identical to a single run."
                       : merged.film.complete ? "equal to a single run up to rounding."

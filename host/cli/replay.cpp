@@ -193,9 +193,9 @@ void printVertex(const ReplayReport& report, const PathVertex& vertex)
     printScattering(vertex);
 }
 
-Json arrayOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json arrayOf(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json arrayOf(const PathRadiance& added) { return {{"added", arrayOf(added.radiance)}, {"clamped", added.clamped}}; }
+Json jsonOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json jsonOf(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json jsonOf(const PathRadiance& added) { return {{"added", jsonOf(added.radiance)}, {"clamped", added.clamped}}; }
 
 Json surfaceJson(const ReplayReport& report, const PathVertex& vertex)
 {
@@ -207,11 +207,11 @@ Json surfaceJson(const ReplayReport& report, const PathVertex& vertex)
             {"triangle", met.triangle ? Json(*met.triangle) : Json()},
             {"material", met.material},
             {"values", materialJson(report, vertex.surface)},
-            {"position", arrayOf(worldOf(report.prepared, vertex.surface.point))},
+            {"position", jsonOf(worldOf(report.prepared, vertex.surface.point))},
             {"distance", vertex.hit.t},
             {"front", vertex.surface.front != 0},
-            {"normal", arrayOf(vertex.surface.ng)},
-            {"shadingNormal", arrayOf(vertex.surface.ns)},
+            {"normal", jsonOf(vertex.surface.ng)},
+            {"shadingNormal", jsonOf(vertex.surface.ns)},
             {"cosine", cosineOf(vertex)}};
 }
 
@@ -223,11 +223,11 @@ Json lightJson(const ReplayReport& report, const SampledLight& each)
                  {"weight", each.note.misWeightOfLight},
                  {"shadowRay", nullptr}};
     if (each.hasShadowRay) {
-        json.set("shadowRay", {{"origin", arrayOf(worldOf(report.prepared, each.ray.origin))},
-                               {"direction", arrayOf(each.ray.direction)},
-                               {"contribution", arrayOf(each.ray.contribution)}});
+        json.set("shadowRay", {{"origin", jsonOf(worldOf(report.prepared, each.ray.origin))},
+                               {"direction", jsonOf(each.ray.direction)},
+                               {"contribution", jsonOf(each.ray.contribution)}});
     }
-    json.update(arrayOf(each.added));
+    json.update(jsonOf(each.added));
     return json;
 }
 
@@ -238,12 +238,12 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
         sampled.append(lightJson(report, each));
     }
     Json emission = {{"pdf", vertex.surface.lightPdfOfHit}, {"weight", vertex.surface.misWeightOfHit}};
-    emission.update(arrayOf(vertex.emitted));
+    emission.update(jsonOf(vertex.emitted));
     Json json = {{"bounce", vertex.bounce},
-                 {"origin", arrayOf(worldOf(report.prepared, vertex.ray.origin))},
-                 {"direction", arrayOf(vertex.ray.direction)},
+                 {"origin", jsonOf(worldOf(report.prepared, vertex.ray.origin))},
+                 {"direction", jsonOf(vertex.ray.direction)},
                  {"pdf", vertex.before.pdf},
-                 {"throughput", arrayOf(vertex.before.throughput)},
+                 {"throughput", jsonOf(vertex.before.throughput)},
                  {"surface", surfaceJson(report, vertex)},
                  {"emission", emission},
                  {"sampledLights", sampled},
@@ -254,9 +254,9 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
         json.set("next", {{"lobe", kLobes[vertex.bsdf.lobe]},
                           {"delta", (vertex.bsdf.lobeFlags & kDelta) != 0},
                           {"transmitted", (vertex.bsdf.lobeFlags & kTransmitted) != 0},
-                          {"weight", arrayOf(vertex.bsdf.weight)},
+                          {"weight", jsonOf(vertex.bsdf.weight)},
                           {"pdf", vertex.after.pdf},
-                          {"throughput", arrayOf(vertex.after.throughput)}});
+                          {"throughput", jsonOf(vertex.after.throughput)}});
     }
     return json;
 }
@@ -290,7 +290,7 @@ void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
                        {"sample", place.sample},
                        {"settings", describeSettings(report.settings) + describeCamera(report.options.pose, report.options.lens)},
                        {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
-                       {"radiance", arrayOf(report.path.radiance.radiance)},
+                       {"radiance", jsonOf(report.path.radiance.radiance)},
                        {"clamped", report.path.radiance.clamped},
                        {"vertices", vertices}};
     writeJson(file, json);

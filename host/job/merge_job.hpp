@@ -17,6 +17,9 @@ struct MergeJob {
     std::optional<std::filesystem::path> output;  // without one the films are only looked at
     PictureFiles pictures;
     LookOptions look;
+
+    // By which messages name the result: the film, else the first picture. There must be one of them.
+    const std::filesystem::path& mainFile() const { return output ? *output : pictures.front(); }
 };
 
 // `job` must outlive the table.

@@ -119,6 +119,7 @@ TEST(CommandLineTest, AnOutputMayBeAPicture)
     EXPECT_EQ(folder.entries(), 5) << "the scene, the film and three pictures";
     const GlimRun merged = runGlim({"merge", folder / "film.exr", "-o", folder / "merged.png", "--exposure", "-1"});
     EXPECT_EQ(merged.exitCode, 0) << merged.err;
+    EXPECT_TRUE(contains(merged.err, "into " + (folder / "merged.png").string())) << merged.err;
     EXPECT_EQ(readFileBytes(folder / "merged.png"), readFileBytes(folder / "beside.png"));
     EXPECT_EQ(folder.entries(), 6);
     EXPECT_EQ(run({"-o", "same.png", "--image", "same.png"}).exitCode, 2);
