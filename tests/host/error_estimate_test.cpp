@@ -104,16 +104,16 @@ SquaredErrors meanErrors(const Film& film, const Population& population)
     return errors;
 }
 
-struct Coverage {
+struct Coverages {
     double mse = 0.0, relMse = 0.0;
 };
 
 // The share of films whose intervals hold their errors.
-Coverage measureCoverage(const Population& population, std::uint32_t pixels, std::uint32_t blocks, int films)
+Coverages measureCoverage(const Population& population, std::uint32_t pixels, std::uint32_t blocks, int films)
 {
     Random random(20261122);
     const auto holds = [](const Interval& interval, double error) { return error >= interval.low && error <= interval.high; };
-    Coverage share;
+    Coverages share;
     for (int i = 0; i < films; ++i) {
         const Film film = draw(population, pixels, blocks, random);
         const ErrorEstimate estimate = *estimateError(film);
@@ -132,7 +132,7 @@ double minCoverage(int films) { return 0.95 - 5.0 * std::sqrt(0.95 * 0.05 / film
 TEST(ErrorEstimate, H30IntervalCoversSmoothPictures)
 {
     for (const std::uint32_t blocks : {2U, 4U, 16U}) {
-        const Coverage share = measureCoverage(smooth(), 256, blocks, 1000);
+        const Coverages share = measureCoverage(smooth(), 256, blocks, 1000);
         for (const double each : {share.mse, share.relMse}) {
             EXPECT_GE(each, minCoverage(1000));
             EXPECT_LE(each, 1.9 - minCoverage(1000)) << "nor is the interval too wide";
@@ -142,14 +142,14 @@ TEST(ErrorEstimate, H30IntervalCoversSmoothPictures)
 
 TEST(ErrorEstimate, H30IntervalCoversEdges)
 {
-    const Coverage share = measureCoverage(edges(), 640, 4, 1000);
+    const Coverages share = measureCoverage(edges(), 640, 4, 1000);
     EXPECT_GE(share.mse, minCoverage(1000));
     EXPECT_GE(share.relMse, minCoverage(1000));
 }
 
 TEST(ErrorEstimate, H30IntervalCoversHeavyTails)
 {
-    const Coverage share = measureCoverage(heavy(), 256, 4, 200);
+    const Coverages share = measureCoverage(heavy(), 256, 4, 200);
     EXPECT_GE(share.mse, minCoverage(200));
     EXPECT_GE(share.relMse, minCoverage(200));
 }

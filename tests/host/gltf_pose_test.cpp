@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kTolerance = 1e-14;
+constexpr double kPoseTolerance = 1e-14;
 const json kQuarterTurnAboutZ = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};  // X to Y
 
 constexpr const char* kBlueGreyPixel =
@@ -52,7 +52,7 @@ struct SkinnedTriangle : GltfBuilder {
 // All vertices follow the first joint.
 SkinnedTriangle rigid() { return SkinnedTriangle({{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}); }
 
-void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance = kTolerance)
+void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance = kPoseTolerance)
 {
     EXPECT_LT(glm::length(value - expected), tolerance) << value.x << ' ' << value.y << ' ' << value.z;
 }

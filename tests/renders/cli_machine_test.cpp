@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-GlimCall smallRender(const ScratchFolder& folder, const std::vector<std::string>& options = {})
+GlimCall pixelsOfCornell(const ScratchFolder& folder, const std::vector<std::string>& options = {})
 {
     GlimCall call;
     call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "8x8", "--spp", "1"};
@@ -59,7 +59,7 @@ TEST(CommandLineTest, DevicesAreChosenByIndexAndByPartOfTheName)
     std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return std::toupper(c); });
     for (const std::string& choice : {std::string("0"), part}) {
         const ScratchFolder folder;
-        const GlimRun run = runGlim(smallRender(folder, {"--device", choice}));
+        const GlimRun run = runGlim(pixelsOfCornell(folder, {"--device", choice}));
         EXPECT_EQ(run.exitCode, 0) << run.err;
         EXPECT_TRUE(contains(run.out, "on " + name)) << run.out;
     }
@@ -68,7 +68,7 @@ TEST(CommandLineTest, DevicesAreChosenByIndexAndByPartOfTheName)
 TEST(CommandLineTest, WithoutADriverTheSentenceSaysWhatToInstall)
 {
     const ScratchFolder folder;
-    GlimCall call = smallRender(folder);
+    GlimCall call = pixelsOfCornell(folder);
     for (const auto& arguments : {call.arguments, std::vector<std::string>{"devices"}}) {
         call.arguments = arguments;
         call.environment = {{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}};
@@ -181,7 +181,7 @@ TEST(CommandLineTest, ScenesWithoutCameraOrLightAreFramedAndSaid)
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
     writeText(folder / "dark.gltf", builder.toGltf());
-    GlimCall call = smallRender(folder);
+    GlimCall call = pixelsOfCornell(folder);
     call.arguments[1] = "dark.gltf";
     const GlimRun run = runForMessages(call);
     EXPECT_EQ(run.exitCode, 0) << run.err;
@@ -202,7 +202,7 @@ TEST(CommandLineTest, AnInstalledAndMovedProgramRendersWithoutADisplay)
     fs::rename(prefix / "bin" / "glim", bin / "glim");
     fs::remove_all(prefix);
     fs::copy_file(sceneFile("cornell.gltf"), home / "my scéne.gltf");
-    GlimCall call = smallRender(folder);
+    GlimCall call = pixelsOfCornell(folder);
     call.program = bin / "glim";
     call.folder = home;
     call.arguments[1] = "my scéne.gltf";
@@ -217,7 +217,7 @@ TEST(CommandLineTest, AnInstalledAndMovedProgramRendersWithoutADisplay)
 TEST(CommandLineTest, NoDisplayIsNeededToRender)
 {
     const ScratchFolder folder;
-    GlimCall call = smallRender(folder);
+    GlimCall call = pixelsOfCornell(folder);
     call.environment = {{"DISPLAY", ":4711"}, {"WAYLAND_DISPLAY", "nowhere"}};
     const GlimRun run = runGlim(call);
     EXPECT_EQ(run.exitCode, 0) << run.err;

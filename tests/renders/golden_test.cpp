@@ -14,7 +14,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kSide = 48;
+constexpr std::uint32_t kGoldenSide = 48;
 constexpr std::uint32_t kGoldenSamples = 2048, kTestSamples = 256;
 
 struct Golden {
@@ -27,7 +27,7 @@ void PrintTo(const Golden& golden, std::ostream* out) { *out << golden.scene; }
 
 Film renderFile(const std::string& scene, std::uint32_t spp, std::uint32_t seed)
 {
-    RenderSettings settings = squareSettings(kSide, spp);
+    RenderSettings settings = squareSettings(kGoldenSide, spp);
     settings.seed = seed;
     return renderScene(loadGltf(std::string(GLIM_SOURCE_DIR "/scenes/") + scene + ".gltf"), settings);
 }

@@ -10,7 +10,6 @@
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <bit>
 #include <cmath>
@@ -215,15 +214,9 @@ TEST(IdentifyTest, HolesOfMasksShowWhatIsBehind)
     }
 }
 
-void addInstance(Scene& scene, std::uint32_t mesh, const glm::dvec3& at, double angle, const glm::dvec3& scale)
-{
-    const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1.0), at), angle, glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
-    scene.instances.push_back({"", mesh, glm::scale(turned, scale)});
-}
-
 // A floor, balls that share a mesh, glass around the camera, a sphere, a lamp, and cards that are half transparent. Each material has an
 // albedo of its own.
-Scene yard()
+Scene yardOfAlbedos()
 {
     SceneBuilder builder;
     const auto floor = builder.lambert(glm::vec3(0.125F)), red = builder.lambert(glm::vec3(0.25F));
@@ -276,7 +269,7 @@ void expectSameSamples(const Identified& identified, const Scene& scene)
 
 TEST(IdentifyTest, SamplesAreThoseOfThePicture)
 {
-    const Scene scene = yard();
+    const Scene scene = yardOfAlbedos();
     Lens lens;
     lens.radius = 0.05F;
     lens.focalDistance = 6.0F;
@@ -296,7 +289,7 @@ TEST(IdentifyTest, SamplesAreThoseOfThePicture)
 // The rule of the course stops each pixel after samples of its own number.
 TEST(IdentifyTest, SamplesOfPixelsThatStopAreThoseOfThePicture)
 {
-    Scene scene = yard();
+    Scene scene = yardOfAlbedos();
     for (Material& material : scene.materials) {
         material.alphaMode = AlphaMode::Opaque;  // which the course does not know
     }
@@ -317,7 +310,7 @@ TEST(IdentifyTest, AdaptivePixelsHaveSharesOfTheirCounts)
 {
     RenderSettings settings = squareSettings(24, 256);
     settings.adaptive = Adaptive::Neighbours;
-    const auto [film, ids] = identify(prepare(yard()), settings);
+    const auto [film, ids] = identify(prepare(yardOfAlbedos()), settings);
     bool uneven = false;
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         uneven = uneven || film.pixels[i].count != film.pixels[0].count;
@@ -331,7 +324,7 @@ TEST(IdentifyTest, AdaptivePixelsHaveSharesOfTheirCounts)
 
 TEST(IdentifyTest, PixelsWithoutSamplesShowNothing)
 {
-    const PreparedScene prepared = prepare(yard());
+    const PreparedScene prepared = prepare(yardOfAlbedos());
     const FlatCamera camera = flattenCamera(prepared.scene.cameras.front(), 1.0F);
     const RenderSettings settings = squareSettings(16, 8);
     Renderer renderer(testDevice(), prepared.flat, camera, settings);
@@ -356,7 +349,7 @@ TEST(IdentifyTest, PixelsWithoutSamplesShowNothing)
 // All ids of both: nodes that share a mesh are told apart. Rounding takes a few rays past an edge.
 TEST(IdentifyTest, SharedMeshesAreIdentifiedAsFlattenedOnes)
 {
-    Scene scene = yard();
+    Scene scene = yardOfAlbedos();
     for (Material& material : scene.materials) {
         material.alphaMode = AlphaMode::Opaque;  // else it is the primitives' ids that decide what a sample sees
     }

@@ -8,7 +8,6 @@
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 
@@ -19,12 +18,6 @@ FlatScene flattenedWith(const Scene& scene, std::uint64_t maxFlatTriangles, Spli
 {
     const Primitives primitives = makePrimitives(scene, maxFlatTriangles);
     return flattenScene(scene, primitives, buildSceneBvh(primitives, rule));
-}
-
-void addInstance(Scene& scene, std::uint32_t mesh, const glm::dvec3& at, double angle, const glm::dvec3& scale)
-{
-    const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1.0), at), angle, glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
-    scene.instances.push_back({"", mesh, glm::scale(turned, scale)});
 }
 
 // The mesh that was added last, alone.

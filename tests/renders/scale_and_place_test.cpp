@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint32_t kSide = 32;
+constexpr std::uint32_t kRoomSide = 32;
 constexpr double kScales[] = {1e-4, 1e-2, 1.0, 1e2, 1e5};
 constexpr double kShifts[] = {0.0, 1e4, 1e6, 1e9};
 
@@ -83,14 +83,14 @@ Film renderRoom(const Scene& scene, std::uint32_t seed)
 {
     constexpr std::size_t kRays = 8;  // of a path of four bounces
     RenderSettings settings =
-        squareSettings(kSide, static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64), kRays) / (kSide * kSide)));
+        squareSettings(kRoomSide, static_cast<std::uint32_t>(hardTrials(kRoomSide * kRoomSide * samplesFor(64), kRays) / (kRoomSide * kRoomSide)));
     settings.bounces = 4;
     settings.seed = seed;
     settings.sampler = Sampler::Independent;
     return renderScene(scene, settings);
 }
 
-double samplesOf(const Film& film) { return 1.0 * kSide * kSide * film.sampleRanges.back().second; }
+double samplesOf(const Film& film) { return 1.0 * kRoomSide * kRoomSide * film.sampleRanges.back().second; }
 
 ZTest compare(const Film& film, const Film& reference) { return zTest(makePicture(film), makePicture(reference), 1e-3 / 200.0); }
 
@@ -189,7 +189,7 @@ Film renderShared(const Scene& scene, std::uint64_t maxFlatTriangles, std::uint3
     const Primitives primitives = makePrimitives(scene, maxFlatTriangles);
     const FlatScene flat = flattenScene(scene, primitives, buildSceneBvh(primitives));
     EXPECT_EQ((flat.features & kFeatureInstances) != 0, maxFlatTriangles == 0);
-    RenderSettings settings = squareSettings(kSide, samplesFor(64));
+    RenderSettings settings = squareSettings(kRoomSide, samplesFor(64));
     settings.bounces = 4;
     settings.seed = seed;
     settings.sampler = Sampler::Independent;
@@ -231,9 +231,9 @@ TEST(ScaleAndPlaceTest, H7NothingShadowsItself)
         box.cube(s, box.lambert(glm::vec3(0.5F)), false).environment(glm::vec3(1.0F));
         box.perspective({3 * s, 4 * s, 5 * s}, {0, 0, 0}, 0.1F);
         for (const SceneBuilder* builder : {&ball, &box}) {
-            const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * 64, 2) / (kSide * kSide));
-            expectEverywhere(renderScene(builder->scene(), squareSettings(kSide, spp)), glm::dvec3(0.5), 2);
-            pixels += 1.0 * kSide * kSide * spp;
+            const auto spp = static_cast<std::uint32_t>(hardTrials(kRoomSide * kRoomSide * 64, 2) / (kRoomSide * kRoomSide));
+            expectEverywhere(renderScene(builder->scene(), squareSettings(kRoomSide, spp)), glm::dvec3(0.5), 2);
+            pixels += 1.0 * kRoomSide * kRoomSide * spp;
         }
     }
     printHardCase("H7", "ball and box under a sky, scale 1e-4 to 1e5", pixels, "every pixel exact");

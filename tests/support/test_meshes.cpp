@@ -1,5 +1,7 @@
 #include "tests/support/test_meshes.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -207,6 +209,12 @@ void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material, c
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
     scene.instances.push_back({"", static_cast<std::uint32_t>(scene.meshes.size())});
     scene.meshes.change().push_back(std::move(mesh));
+}
+
+void addInstance(Scene& scene, std::uint32_t mesh, const glm::dvec3& at, double angle, const glm::dvec3& scale)
+{
+    const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1.0), at), angle, glm::normalize(glm::dvec3(0.3, 1.0, 0.2)));
+    scene.instances.push_back({"", mesh, glm::scale(turned, scale)});
 }
 
 std::vector<glm::vec3> listVertices(const Triangles& triangles)

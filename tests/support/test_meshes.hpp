@@ -12,6 +12,8 @@ Primitives makeTestPrimitives(const Triangles& triangles, const std::vector<Sphe
 
 // Adds a mesh and an instance of it. `normals`: none, or three per triangle.
 void addMesh(Scene& scene, const Triangles& triangles, std::uint32_t material = 0, const std::vector<glm::vec3>& normals = {});
+// Of a mesh of the scene, scaled and then rotated by `angle` about a slanted axis.
+void addInstance(Scene& scene, std::uint32_t mesh, const glm::dvec3& at, double angle, const glm::dvec3& scale);
 
 // The vertices, three per triangle: on the unit sphere, the normals there.
 std::vector<glm::vec3> listVertices(const Triangles& triangles);
