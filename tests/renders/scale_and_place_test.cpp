@@ -82,8 +82,8 @@ Scene roomAt(double scale, double shift)
 Film renderRoom(const Scene& scene, std::uint32_t seed)
 {
     constexpr std::size_t kRays = 8;  // of a path of four bounces
-    RenderSettings settings =
-        squareSettings(kRoomSide, static_cast<std::uint32_t>(hardTrials(kRoomSide * kRoomSide * samplesFor(64), kRays) / (kRoomSide * kRoomSide)));
+    RenderSettings settings = squareSettings(
+        kRoomSide, static_cast<std::uint32_t>(hardTrials(kRoomSide * kRoomSide * samplesFor(64), kRays) / (kRoomSide * kRoomSide)));
     settings.bounces = 4;
     settings.seed = seed;
     settings.sampler = Sampler::Independent;

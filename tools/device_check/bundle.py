@@ -17,8 +17,8 @@ LAYER_FOLDER = "/usr/share/vulkan/explicit_layer.d"
 OF_THE_MACHINE = re.compile(r"(linux-vdso|ld-linux[-\w]*|libc|libm|libdl|libpthread|librt)\.so")
 # A newer one of the machine is taken instead, since drivers may need it.
 FALLBACKS = ("libstdc++.so.6", "libgcc_s.so.1")
-# What libGLX_nvidia.so.0 needs besides.
-OF_NVIDIA = ("libXext.so.6",)
+# What libGLX_nvidia.so.0 needs besides. Without a display it asks libEGL.so.1; where that is missing, it says that it is no Vulkan driver.
+OF_NVIDIA = ("libXext.so.6", "libEGL.so.1")
 
 
 def run(*words):
