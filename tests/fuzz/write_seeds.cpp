@@ -130,8 +130,8 @@ void writeImages(const fs::path& folder)
     clear.chunks = {{"tEXt", {'a', 0, 'b'}}, {"gAMA", {0, 0, 177, 143}}};
     writeFile(folder / "clear.png", encodePng(2, 2, Bytes(12, 77), clear));
     writeFile(folder / "grey.jpg", encodeJpeg(4, 4, rows, JpegColors::Grey));
-    writeFile(folder / "rgb.jpg", encodeJpeg(17, 9, Bytes(17 * 9 * 3, 50), JpegColors::Rgb));
-    writeFile(folder / "progressive.jpg", encodeJpeg(17, 9, Bytes(17 * 9 * 3, 50), JpegColors::Rgb, true));
+    writeFile(folder / "rgb.jpg", encodeJpeg(17, 9, Bytes(17 * 9 * 3, 50), JpegColors::Color));
+    writeFile(folder / "progressive.jpg", encodeJpeg(17, 9, Bytes(17 * 9 * 3, 50), JpegColors::Color, true));
     writeFile(folder / "cmyk.jpg", encodeJpeg(2, 2, rows, JpegColors::Cmyk));
     writeFile(folder / "alpha.webp", encodeWebp(4, 4, wide));
     const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n";

@@ -94,8 +94,8 @@ TEST(DecodeImageTest, JpegsOfEveryColourSpace)
         return values;
     };
     expectNear(encodeJpeg(16, 16, filled({90}), JpegColors::Grey), {90, 90, 90});
-    expectNear(encodeJpeg(16, 16, filled({200, 100, 50}), JpegColors::Rgb), {200, 100, 50});
-    expectNear(encodeJpeg(16, 16, filled({200, 100, 50}), JpegColors::Rgb, true), {200, 100, 50});
+    expectNear(encodeJpeg(16, 16, filled({200, 100, 50}), JpegColors::Color), {200, 100, 50});
+    expectNear(encodeJpeg(16, 16, filled({200, 100, 50}), JpegColors::Color, true), {200, 100, 50});
     // Inverted inks: 255 - ink, and black multiplies.
     expectNear(encodeJpeg(16, 16, filled({255, 128, 0, 128}), JpegColors::Cmyk), {128, 64, 0});
 }
@@ -119,7 +119,7 @@ TEST(DecodeImageTest, JpegsMayLackTheirEndMarkerAlone)
         value = static_cast<unsigned char>(random.below(256));
     }
     for (const bool progressive : {false, true}) {
-        const Bytes jpeg = encodeJpeg(64, 64, values, JpegColors::Rgb, progressive);
+        const Bytes jpeg = encodeJpeg(64, 64, values, JpegColors::Color, progressive);
         const DecodedImage whole = decodeImage(jpeg), open = decodeImage(truncated(jpeg, 2));
         EXPECT_FALSE(whole.noEnd);
         EXPECT_TRUE(open.noEnd);
@@ -129,7 +129,7 @@ TEST(DecodeImageTest, JpegsMayLackTheirEndMarkerAlone)
             expectBroken(truncated(jpeg, missing));
         }
     }
-    const Bytes scan{0xff, 0xda}, jpeg = encodeJpeg(64, 64, values, JpegColors::Rgb, true);
+    const Bytes scan{0xff, 0xda}, jpeg = encodeJpeg(64, 64, values, JpegColors::Color, true);
     std::size_t scans = 0;
     for (auto at = std::search(jpeg.begin() + 2, jpeg.end(), scan.begin(), scan.end()); at != jpeg.end();
          at = std::search(at + 2, jpeg.end(), scan.begin(), scan.end())) {
@@ -154,8 +154,8 @@ TEST(DecodeImageTest, BrokenImagesAreRefused)
     for (unsigned char& value : noise) {
         value = static_cast<unsigned char>(random.below(256));
     }
-    const Bytes png = encodePng(64, 64, noise), jpeg = encodeJpeg(64, 64, noise, JpegColors::Rgb);
-    const Bytes progressive = encodeJpeg(64, 64, noise, JpegColors::Rgb, true);
+    const Bytes png = encodePng(64, 64, noise), jpeg = encodeJpeg(64, 64, noise, JpegColors::Color);
+    const Bytes progressive = encodeJpeg(64, 64, noise, JpegColors::Color, true);
     Bytes rgba(64 * 64 * 4, 255);
     std::copy(noise.begin(), noise.end(), rgba.begin());
     const Bytes webp = encodeWebp(64, 64, rgba);
@@ -220,7 +220,7 @@ TEST(DecodeImageTest, SurvivesMutants)
     for (std::size_t i = 0; i < values.size(); i += 5) {
         values[i] = static_cast<unsigned char>(i);
     }
-    const Bytes files[] = {encodePng(24, 24, values), encodeJpeg(24, 24, values, JpegColors::Rgb, true),
+    const Bytes files[] = {encodePng(24, 24, values), encodeJpeg(24, 24, values, JpegColors::Color, true),
                            encodeWebp(24, 18, Bytes(values.begin(), values.begin() + 24 * 18 * 4))};
     Random random(11);
     std::size_t refused = 0;

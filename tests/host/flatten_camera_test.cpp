@@ -6,7 +6,7 @@
 namespace glim {
 namespace {
 
-void expectNear(const glm::vec3& a, const glm::vec3& b)
+void expectVectorNear(const glm::vec3& a, const glm::vec3& b)
 {
     for (int k = 0; k < 3; ++k) {
         EXPECT_NEAR(a[k], b[k], 1e-6F) << k;
@@ -31,13 +31,13 @@ TEST(FlattenCamera, TheLensIsInTheCamerasPlane)
 {
     for (const auto& [kind, height] : {std::pair(Camera::Kind::Perspective, 1.0F), {Camera::Kind::Orthographic, 4.0F}}) {
         const FlatCamera flat = flattenCamera(makeCamera(kind), 2.0F, {0.25F, 8.0F});
-        expectNear(flat.lensRight, {0, -0.25F, 0});
-        expectNear(flat.lensUp, {0, 0, 0.25F});
+        expectVectorNear(flat.lensRight, {0, -0.25F, 0});
+        expectVectorNear(flat.lensUp, {0, 0, 0.25F});
         EXPECT_EQ(flat.inverseFocus, 0.125F);
-        expectNear(flat.right, {0, -2 * height, 0});
-        expectNear(flat.up, {0, 0, height});
-        expectNear(flat.forward, {1, 0, 0});
-        expectNear(flat.position, {1, 2, 3});
+        expectVectorNear(flat.right, {0, -2 * height, 0});
+        expectVectorNear(flat.up, {0, 0, height});
+        expectVectorNear(flat.forward, {1, 0, 0});
+        expectVectorNear(flat.position, {1, 2, 3});
     }
 }
 

@@ -22,9 +22,7 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-std::string describe(const MeanEstimate& mean) { return figure(mean.mean.g) + " +- " + figure(mean.standardError.g); }
+std::string describeMaterial(const MeanEstimate& mean) { return figure(mean.mean.g) + " +- " + figure(mean.standardError.g); }
 
 double samplesOf(const RenderSettings& settings) { return 1.0 * settings.width * settings.height * settings.sampleEnd; }
 
@@ -178,7 +176,7 @@ TEST(HardMaterialTest, H20GrazingGgx)
     const RenderSettings settings = persistent(kStrip * 6, 16, 512);
     std::vector<double> least(6, 1e9), most(6, 0.0);
     for (const float degrees : {3.0F, 0.1F, 1e-3F}) {
-        const float slope = degrees * static_cast<float>(kPi) / 180.0F;
+        const float slope = degrees * static_cast<float>(std::numbers::pi) / 180.0F;
         SceneBuilder builder;
         for (int i = 0; i < 6; ++i) {
             const float x = static_cast<float>(i);
@@ -348,7 +346,7 @@ TEST(HardMaterialTest, H50ManyInstancesOfOneImage)
     const Film film = renderFlat(flat, scene.cameras[0], settings);
     printHardCase("H50", figure(1.0 * kMaterials * kEach) + " instances, " + figure(kMaterials) + " materials, one image of 512 x 512",
                   samplesOf(settings),
-                  figure(static_cast<double>(textureBytes(flat)) / 1048576.0) + " MiB of texels; mean " + describe(meanOf(film)),
+                  figure(static_cast<double>(textureBytes(flat)) / 1048576.0) + " MiB of texels; mean " + describeMaterial(meanOf(film)),
                   "a copy for each material: " + figure(static_cast<double>(textureBytes(flat)) / 1048576.0 * kMaterials) + " MiB");
     expectMean("many instances of one image", film, glm::dvec3(meanAlbedo(*scene.images[0].pixels)));
 }

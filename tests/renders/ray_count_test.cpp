@@ -41,18 +41,18 @@ TEST(RayCountTest, LightSamplingNeedsNoLastRay)
 {
     SceneBuilder builder;
     builder.cube(1.0F, builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F)), true).perspective({0, 0, 0}, {0, 0, -1}, 1.0F);
-    constexpr std::uint64_t kSamples = 16 * 16 * 4;
+    constexpr std::uint64_t kCountedSamples = 16 * 16 * 4;
     RenderSettings settings = squareSettings(16, 4);
     settings.bounces = 1;
     for (const DirectLight direct : {DirectLight::Lights, DirectLight::Hemisphere}) {
         settings.course.direct = direct;
         const RenderStatistics counts = countIn(builder, settings);
-        EXPECT_EQ(counts.cameraAndBounceRays, kSamples);
-        EXPECT_GT(counts.shadowRays, kSamples / 4);
+        EXPECT_EQ(counts.cameraAndBounceRays, kCountedSamples);
+        EXPECT_GT(counts.shadowRays, kCountedSamples / 4);
     }
     settings.paths = PathParts::Indirect;
     settings.bounces = 2;
-    EXPECT_LE(countIn(builder, settings).shadowRays, kSamples);
+    EXPECT_LE(countIn(builder, settings).shadowRays, kCountedSamples);
 }
 
 TEST(RayCountTest, BlackSurfacesNeedNoDirections)

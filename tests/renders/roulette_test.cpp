@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSurvival = 0.7;
 
-Film render(double albedo, Roulette roulette, std::uint32_t bounces, std::uint32_t spp, std::uint32_t side = 64)
+Film renderWithRoulette(double albedo, Roulette roulette, std::uint32_t bounces, std::uint32_t spp, std::uint32_t side = 64)
 {
     SceneBuilder builder;
     builder.cube(1.0F, builder.lambert(glm::vec3(static_cast<float>(albedo)), glm::vec3(1.0F)), true)
@@ -47,7 +47,7 @@ double truth(double a, std::uint32_t bounces) { return (1.0 - std::pow(a, bounce
 
 TEST(RoulettePictureTest, NoneFollowsEveryPathToTheEnd)
 {
-    expectEverywhere(render(0.8, Roulette::None, 30, 4), glm::dvec3(truth(0.8, 30)), 31);
+    expectEverywhere(renderWithRoulette(0.8, Roulette::None, 30, 4), glm::dvec3(truth(0.8, 30)), 31);
 }
 
 TEST(RoulettePictureTest, AllHaveTheSameMeanWhereTheVarianceExists)
@@ -55,7 +55,7 @@ TEST(RoulettePictureTest, AllHaveTheSameMeanWhereTheVarianceExists)
     for (const double a : {0.5, 0.8}) {
         const double z = scoreLimit(200);
         for (const Roulette roulette : {Roulette::Throughput, Roulette::Fixed}) {
-            const MeanEstimate mean = meanOf(render(a, roulette, 200, samplesFor(64)));
+            const MeanEstimate mean = meanOf(renderWithRoulette(a, roulette, 200, samplesFor(64)));
             const double samples = 64.0 * 64.0 * samplesFor(64);
             // The fixed roulette's estimate of its own error is too noisy: the formula gives the error.
             const double error = roulette == Roulette::Fixed ? std::sqrt(variance(a, 200) / samples) : mean.standardError.g;
@@ -72,7 +72,7 @@ TEST(RoulettePictureTest, FixedHasInfiniteVarianceAboveItsLimit)
     for (const auto& [a, bounces] : {std::pair{0.6, 12U}, {0.8, 12U}, {0.9, 6U}, {0.9, 12U}}) {
         constexpr std::uint32_t kSamples = 256;
         double sum = 0.0;
-        const Film film = render(a, Roulette::Fixed, bounces, kSamples);
+        const Film film = renderWithRoulette(a, Roulette::Fixed, bounces, kSamples);
         for (const PixelMoments& pixel : film.pixels) {
             sum += static_cast<double>(computeVarianceOfMean(pixel).g) * kSamples;
         }
@@ -105,8 +105,8 @@ TEST(RoulettePictureTest, H24H25RoomOfAlbedo99Percent)
     constexpr std::size_t kRays = 210;                    // of a path
     const auto spp = static_cast<std::uint32_t>(hardTrials(kSide * kSide * samplesFor(64, 16), kRays) / (kSide * kSide));
     const double paths = 1.0 * kSide * kSide * spp, z = scoreLimit(200);
-    const MeanEstimate ours = meanOf(render(kAlbedo, Roulette::Throughput, kBounces, spp, kSide));
-    const MeanEstimate fixed = meanOf(render(kAlbedo, Roulette::Fixed, kBounces, spp, kSide));
+    const MeanEstimate ours = meanOf(renderWithRoulette(kAlbedo, Roulette::Throughput, kBounces, spp, kSide));
+    const MeanEstimate fixed = meanOf(renderWithRoulette(kAlbedo, Roulette::Fixed, kBounces, spp, kSide));
     const double deviation = ours.standardError.g * std::sqrt(paths), error = kDeviation / std::sqrt(paths);
     printHardCase("H24", "closed room of albedo .99", paths,
                   "mean " + figure(ours.mean.g) + " +- " + figure(error) + " of 100, deviation " + figure(deviation),

@@ -122,11 +122,11 @@ TEST(StartMediaTest, AWindowAcrossABoundarySeesBoth)
     builder.environment(glm::vec3(1.0F)).orthographic({0, 0, 0}, {0, 0, -1}, 0.5F);
     Scene scene = builder.scene();
     addBox(scene, {-2, -2, -1}, {0, 2, 2}, addMedium(scene, kThin));
-    constexpr std::uint32_t kSide = 8;
-    const Film film = renderScene(scene, squareSettings(kSide, 8));
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    constexpr std::uint32_t kMediaSide = 8;
+    const Film film = renderScene(scene, squareSettings(kMediaSide, 8));
+    for (std::uint32_t i = 0; i < kMediaSide * kMediaSide; ++i) {
         for (int c = 0; c < 3; ++c) {
-            const double truth = i % kSide < kSide / 2 ? kThin[c] : 1.0;
+            const double truth = i % kMediaSide < kMediaSide / 2 ? kThin[c] : 1.0;
             EXPECT_NEAR(film.pixels[i].mean[c], truth, 4e-6) << i;
         }
     }

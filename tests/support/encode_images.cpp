@@ -92,8 +92,8 @@ Bytes encodeJpeg(std::uint32_t width, std::uint32_t height, const Bytes& values,
     jpeg_mem_dest(&jpeg, &memory, &size);
     jpeg.image_width = width;
     jpeg.image_height = height;
-    jpeg.input_components = colors == JpegColors::Grey ? 1 : colors == JpegColors::Rgb ? 3 : 4;
-    jpeg.in_color_space = colors == JpegColors::Grey ? JCS_GRAYSCALE : colors == JpegColors::Rgb ? JCS_RGB : JCS_CMYK;
+    jpeg.input_components = colors == JpegColors::Grey ? 1 : colors == JpegColors::Color ? 3 : 4;
+    jpeg.in_color_space = colors == JpegColors::Grey ? JCS_GRAYSCALE : colors == JpegColors::Color ? JCS_RGB : JCS_CMYK;
     jpeg_set_defaults(&jpeg);
     jpeg_set_quality(&jpeg, 100, TRUE);
     if (progressive) {

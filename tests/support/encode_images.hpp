@@ -26,7 +26,7 @@ Bytes encodePng(std::uint32_t width, std::uint32_t height, const Bytes& rows, co
 // Changes width and height in a PNG's header.
 Bytes withPngSize(Bytes png, std::uint32_t width, std::uint32_t height);
 
-enum class JpegColors { Grey, Rgb, Cmyk };  // Cmyk: as Adobe writes it, the inks inverted
+enum class JpegColors { Grey, Color, Cmyk };  // Cmyk: as Adobe writes it, the inks inverted
 
 // Of the best quality. `values`: a byte per channel.
 Bytes encodeJpeg(std::uint32_t width, std::uint32_t height, const Bytes& values, JpegColors colors, bool progressive = false);
