@@ -49,6 +49,7 @@
     ID(RepairedTexels)                                                    \
     ID(ExtrasIgnored)                                                     \
     ID(StudioLight)                                                       \
+    ID(OwnLight)                                                          \
     ID(FramedCamera)                                                      \
     ID(WeightsClamped)                                                    \
     ID(WeightsNormalized)                                                 \

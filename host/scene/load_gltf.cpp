@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/message.hpp"
 #include "host/scene/check_scene.hpp"
+#include "host/scene/estimate_light.hpp"
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/animate_gltf.hpp"
 #include "host/scene/gltf/check_gltf_json.hpp"
@@ -147,6 +148,10 @@ std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions&
     return environment;
 }
 
+// Shares of what the camera sees. Below the first one the built-in studio joins the scene's own lights; below the second one a line says
+// that it can.
+constexpr double kEnoughLit = 1.0 / 3.0, kMostLit = 0.5;
+
 std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
                                                Warnings& warnings)
 {
@@ -165,18 +170,6 @@ std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadO
     return environment;
 }
 
-std::vector<bool> findUsedMaterials(const Scene& scene)
-{
-    std::vector<bool> used(scene.materials.size(), false);
-    for (const Mesh& mesh : scene.meshes) {
-        used[mesh.material] = true;
-    }
-    for (const Sphere& sphere : scene.spheres) {
-        used[sphere.material] = true;
-    }
-    return used;
-}
-
 Environment makeStudioEnvironment(const LoadOptions& options, DecodedParts& decoded)
 {
     Environment environment;
@@ -185,17 +178,6 @@ Environment makeStudioEnvironment(const LoadOptions& options, DecodedParts& deco
     environment.rotation = options.environmentRotation;
     environment.background = options.environmentBackground;
     return environment;
-}
-
-// Emission by a texture, as of the lights of a model, is not there to light a scene.
-bool hasLight(const Scene& scene)
-{
-    const std::vector<bool> used = findUsedMaterials(scene);
-    bool isLit = false;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        isLit = isLit || (used[i] && !scene.materials[i].textures[kSlotEmissive] && scene.materials[i].emission != glm::vec3(0.0F));
-    }
-    return isLit || !scene.lights.empty() || scene.environment;
 }
 
 std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
@@ -468,6 +450,7 @@ struct SceneFile::Contents {
     FilePart main;
     std::vector<FilePart> added;
     JoinedMeshes joined;
+    std::optional<double> litShare;                         // of the rest pose, so that all frames of an animation have the same light
     std::vector<std::uint32_t> firstNodes, firstMaterials;  // of each part, in the last scene
 
     Contents(const std::filesystem::path& path, const LoadOptions& options)
@@ -507,12 +490,8 @@ SceneFile::SceneFile(const std::filesystem::path& file, const LoadOptions& optio
 
 SceneFile::~SceneFile() = default;
 
-Scene SceneFile::sceneAt(std::optional<double> seconds)
+Scene SceneFile::read(std::optional<double> seconds, Warnings& warnings)
 {
-    if (!contents_) {
-        contents_ = std::make_unique<Contents>(path_, options_);
-    }
-    Warnings warnings;
     Scene scene = contents_->main.read(seconds, warnings);
     if (options_.sun) {
         scene.lights.push_back(lightOf(*options_.sun));
@@ -538,16 +517,52 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
         }
         scene = joinScenes(std::move(scene), others, contents_->joined);
     }
-    if (!options_.environment && !hasLight(scene)) {
-        scene.environment = makeStudioEnvironment(options_, contents_->main.decoded());
-        warnings.add(MessageId::StudioLight, "the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
-    }
     if (scene.cameras.empty()) {
         warnings.add(MessageId::FramedCamera, "the scene has no camera: one is framed on its bounding box");
     }
     if (framed) {
         scene.cameras.push_back(*framed);
     }
+    return scene;
+}
+
+void SceneFile::chooseLight(Scene& scene, bool isPosed, Warnings& warnings)
+{
+    // Who gives an environment or a sun has chosen the light.
+    if (options_.environment || options_.sun || scene.environment) {
+        return;
+    }
+    if (!hasLight(scene)) {
+        scene.environment = makeStudioEnvironment(options_, contents_->main.decoded());
+        warnings.add(MessageId::StudioLight, "the scene has no light: the built-in studio lights it (--environment none keeps it dark)");
+        return;
+    }
+    if (!contents_->litShare) {
+        Warnings unheard;
+        const Scene rest = isPosed ? read(std::nullopt, unheard) : Scene();
+        const Scene& estimated = isPosed ? rest : scene;
+        contents_->litShare = estimateLitShare(estimated, estimated.cameras.front());
+    }
+    const MessagePart share = part::value(std::to_string(static_cast<int>(100.0 * *contents_->litShare)) + " %");
+    if (*contents_->litShare < kEnoughLit) {
+        scene.environment = makeStudioEnvironment(options_, contents_->main.decoded());
+        warnings.add({MessageId::StudioLight,
+                      {"the scene's own lights show ", share,
+                       " of what its camera sees: the built-in studio joins them (--environment none leaves it out)"}});
+    } else if (*contents_->litShare < kMostLit) {
+        warnings.add({MessageId::OwnLight,
+                      {"the scene's own lights show ", share, " of what its camera sees; --environment studio adds the built-in studio"}});
+    }
+}
+
+Scene SceneFile::sceneAt(std::optional<double> seconds)
+{
+    if (!contents_) {
+        contents_ = std::make_unique<Contents>(path_, options_);
+    }
+    Warnings warnings;
+    Scene scene = read(seconds, warnings);
+    chooseLight(scene, seconds.has_value(), warnings);
     scene.warnings = warnings.messages();
     checkScene(scene);
     return scene;
@@ -559,6 +574,7 @@ void SceneFile::edit(const std::vector<Edit>& edits)
     options.edits = edits;
     checkFilesOfEdits(path_, options);
     const auto apply = [this](const std::vector<Edit>& all) {
+        contents_->litShare.reset();
         contents_->main.edit(ownEdits(all, options_.additions));
         for (std::size_t i = 0; i < options_.additions.size(); ++i) {
             contents_->added[i].edit(editsOf(all, options_.additions[i]));

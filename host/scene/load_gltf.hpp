@@ -12,6 +12,8 @@
 
 namespace glim {
 
+class Warnings;
+
 enum class MissingTextures { Refuse, Grey };
 
 // No environment at all, the built-in studio, a constant radiance or a map.
@@ -85,6 +87,10 @@ public:
 private:
     struct Contents;
 
+    // Without the light that chooseLight gives it.
+    Scene read(std::optional<double> seconds, Warnings& warnings);
+    // The built-in studio, where nothing else would show what is in the scene.
+    void chooseLight(Scene& scene, bool isPosed, Warnings& warnings);
     std::string prefixOf(std::size_t part) const;
 
     std::filesystem::path path_;

@@ -15,12 +15,13 @@ struct Softbox {
     double radiance;
 };
 
-// White that faces the key light is just below a radiance of 1, and the framed camera sees none of the boxes directly.
+// A ball of 18 % grey has a mean radiance of .2 as the framed camera sees it. White that faces the key light has 1.4, which the neutral
+// tone holds; the framed camera sees none of the boxes directly.
 constexpr Softbox kSoftboxes[] = {
-    {-45.0, 42.0, 26.0, 22.0, 3.2},  // key
-    {75.0, 20.0, 18.0, 30.0, 1.2},   // fill
-    {130.0, 40.0, 24.0, 14.0, 2.0},  // rim, from behind
-    {0.0, 88.0, 180.0, 18.0, 0.5},   // overhead
+    {-45.0, 42.0, 26.0, 22.0, 5.9},  // key
+    {75.0, 20.0, 18.0, 30.0, 2.4},   // fill
+    {130.0, 40.0, 24.0, 14.0, 3.7},  // rim, from behind
+    {0.0, 88.0, 180.0, 18.0, 0.9},   // overhead
 };
 
 double smoothStep(double x)
@@ -34,7 +35,10 @@ double inside(double distance, double half) { return smoothStep((half - std::abs
 
 double radianceAt(double azimuth, double elevation)
 {
-    double radiance = 0.12 + 0.22 * smoothStep((elevation + 30.0) / 120.0);
+    // The backdrop, which the framed camera sees, grows brighter up to the horizon; the floor below and the walls above are dark. So a
+    // mirror differs from what is behind it.
+    double radiance = 0.06 + 0.2 * smoothStep((elevation + 55.0) / 60.0) - 0.16 * smoothStep((elevation - 4.0) / 14.0) +
+                      0.25 * smoothStep((elevation - 25.0) / 65.0);
     for (const Softbox& box : kSoftboxes) {
         const double across = std::remainder(azimuth - box.azimuth, 360.0) * std::cos(elevation * pi / 180.0);
         radiance +=

@@ -49,6 +49,7 @@ struct Material {
     float specular = 1.0F;          // strength of the dielectric's reflection
     glm::vec3 specularColor{1.0F};  // of that reflection at normal incidence; may exceed 1
     glm::vec3 emission{0.0F};       // radiance, W/(sr m^2)
+    bool isDisplay = false;         // it emits to be seen, not to light the scene: without KHR_materials_emissive_strength
     bool doubleSided = false;       // emits from both sides; and rays meet its back faces, as those of what transmits (meetsBackFaces)
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alpha = 1.0F, alphaCutoff = 0.5F;
@@ -169,6 +170,8 @@ struct PunctualLight {
 
 // The default size of a picture follows its camera's aspect ratio up to this, and down to its inverse.
 inline constexpr float kMaxAspectRatio = 16.0F;
+// Of a perspective camera that names none.
+inline constexpr float kUsualAspectRatio = 16.0F / 9.0F;
 
 struct Camera {
     enum class Kind : std::uint32_t { Perspective, Orthographic };
@@ -209,5 +212,18 @@ struct Scene {
     std::size_t skins = 0, morphTargets = 0;  // of the file
     std::vector<Message> warnings;            // one line each: what was ignored, mapped, dropped or framed
 };
+
+// By material, whether a mesh or a sphere has it.
+inline std::vector<bool> findUsedMaterials(const Scene& scene)
+{
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Mesh& mesh : scene.meshes) {
+        used[mesh.material] = true;
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        used[sphere.material] = true;
+    }
+    return used;
+}
 
 }  // namespace glim

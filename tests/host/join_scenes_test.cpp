@@ -126,7 +126,7 @@ TEST_F(JoinScenesTest, AFileOfLightsAloneIsAdded)
     GltfBuilder lights;
     lights.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     lights.document["extensionsUsed"] = {"KHR_lights_punctual"};
-    lights.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    lights.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1e5}}};
     writeText(folder_ / "lights.gltf", lights.toGltf());
     ASSERT_TRUE(loadGltf(table()).environment);
     const Scene scene = loadGltf(table(), with("lights.gltf"));

@@ -182,7 +182,7 @@ class FilmTest(PythonCase):
                 json.dump(lamp, file)
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
-                film = glim.render(self.path("lamp.gltf"), size=(8, 8), target_rmse=10, denoise=True)
+                film = glim.render(self.path("lamp.gltf"), size=(8, 8), target_rmse=10, denoise=True, environment="none")
             self.assertIn("the target is not reached after 1024 samples per pixel", str(caught[-1].message))
             self.assertIsNone(film.error)
             self.assertEqual(film.count.max(), 1024)

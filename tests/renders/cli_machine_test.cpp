@@ -87,7 +87,9 @@ std::string knownScene()
 {
     GltfBuilder builder;
     const std::size_t mesh = builder.addTriangleMesh();
-    builder.append("materials", {{"emissiveFactor", {1, 1, 1}}});
+    builder.document["extensionsUsed"] = {"KHR_materials_emissive_strength"};  // it is a lamp and no display
+    builder.append("materials",
+                   {{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}}}}});
     builder.addNode({{"mesh", mesh}});
     builder.addNode({{"mesh", mesh}, {"translation", {0, 0, -1}}});
     builder.addNode({{"translation", {0, 0, 3}}, {"extras", {{"sphere", {{"radius", 0.5}, {"material", 0}}}}}});

@@ -22,13 +22,14 @@ struct Rendered {
     json parsed;
 };
 
-// A quad under a point light of so many candela.
+// A quad under a point light of so many candela, and nothing else.
 class UnknownErrorTest : public testing::Test {
 protected:
     Rendered render(const std::string& scene, std::vector<std::string> options)
     {
         GlimCall call;
-        call.arguments = {"render", scene, "-o", "x.exr", "--size", "8x8", "--progress", "none", "--stats", "s.json"};
+        call.arguments = {"render",     scene,  "-o",      "x.exr",  "--size",        "8x8",
+                          "--progress", "none", "--stats", "s.json", "--environment", "none"};
         call.arguments.insert(call.arguments.end(), options.begin(), options.end());
         call.folder = folder_.path();
         GlimRun run = runForMessages(call);

@@ -1,5 +1,9 @@
 // Pictures lit by environment maps: however light is found, in mirrors, and with suns as small as a texel.
+#include "host/image/srgb.hpp"
 #include "host/measure/confidence.hpp"
+#include "host/scene/frame_camera.hpp"
+#include "host/scene/make_studio.hpp"
+#include "shaders/shared/luminance.h"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/random.hpp"
@@ -14,12 +18,10 @@
 namespace glim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // The direction of a map's texel coordinates, in texels.
 glm::dvec3 directionOf(const RadianceMap& map, double x, double y)
 {
-    const double phi = 2.0 * kPi * (x / map.width - 0.5), theta = kPi * y / map.height;
+    const double phi = 2.0 * std::numbers::pi * (x / map.width - 0.5), theta = std::numbers::pi * y / map.height;
     return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
 }
 
@@ -49,12 +51,12 @@ RadianceMap sunAndSky()
 {
     RadianceMap map = plainMap(2048, 1024, glm::vec3(0.0F));
     for (std::uint32_t y = 0; y < map.height; ++y) {
-        const float height = std::cos(static_cast<float>(kPi) * (static_cast<float>(y) + 0.5F) / 1024.0F);
+        const float height = std::cos(static_cast<float>(std::numbers::pi) * (static_cast<float>(y) + 0.5F) / 1024.0F);
         const glm::vec3 color = height > 0.0F ? glm::mix(glm::vec3(1.2F, 1.3F, 1.4F), glm::vec3(0.3F, 0.5F, 1.0F), std::sqrt(height))
                                               : glm::vec3(0.15F, 0.12F, 0.1F);
         std::fill_n(map.texels.begin() + std::ptrdiff_t{2048} * y, 2048, color);
     }
-    addSun(map, {0.5, 0.8, -0.6}, 0.26 * kPi / 180.0, glm::vec3(3e5F, 2.8e5F, 2.5e5F));
+    addSun(map, {0.5, 0.8, -0.6}, 0.26 * std::numbers::pi / 180.0, glm::vec3(3e5F, 2.8e5F, 2.5e5F));
     return map;
 }
 
@@ -192,10 +194,10 @@ double irradianceOfTexel(const RadianceMap& map, std::uint32_t y, double radianc
         }
         // Beyond the outermost row's centre the radiance is that row's.
         const double row = std::clamp(v, 0.5, map.height - 0.5), t = std::max(0.0, 1.0 - std::abs(row - (y + 0.5)));
-        const double theta = kPi * v / map.height;
-        sum += t * std::abs(std::cos(theta)) * std::sin(theta) * (kPi / map.height / kFine);
+        const double theta = std::numbers::pi * v / map.height;
+        sum += t * std::abs(std::cos(theta)) * std::sin(theta) * (std::numbers::pi / map.height / kFine);
     }
-    return radiance * sum * 2.0 * kPi / map.width;  // the tent across has the area of one texel
+    return radiance * sum * 2.0 * std::numbers::pi / map.width;  // the tent across has the area of one texel
 }
 
 // One hot texel at each pole, on a floor and on a ceiling. With GLIM_HARD the map is as large as glim reads.
@@ -223,7 +225,7 @@ TEST(EnvironmentTest, H15HotTexelsAtThePoles)
     for (const auto& [camera, irradiance] : {std::pair{0U, above}, std::pair{1U, below}}) {
         const Film film = renderFlat(flat, scene.cameras[camera], settings);
         const MeanEstimate mean = meanOf(film);
-        const double truth = 0.5 * irradiance / kPi;
+        const double truth = 0.5 * irradiance / std::numbers::pi;
         printHardCase("H15", "one hot texel at the pole of a map of " + size, 1024.0 * settings.sampleEnd,
                       "mean off by " + figure(mean.mean.g / truth - 1.0) + " +- " + figure(mean.standardError.g / truth));
         expectMean("hot texel at the pole", film, glm::dvec3(truth));
@@ -266,6 +268,61 @@ TEST(EnvironmentTest, H15SunAndSkyByLightsAndByTheCosine)
     EXPECT_GE(cosine, 50.0 * mis);
     EXPECT_GE(cosine, 50.0 * lights);
     expectSameMean("sun and sky by MIS and by lights", films[DirectLight::Mis], films[DirectLight::Lights]);
+}
+
+// A ball in the studio, as the framed camera sees it.
+Film ballInStudio(const Material& material, std::uint32_t spp)
+{
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0F, builder.add(material));
+    Scene scene = builder.scene();
+    setMap(scene, makeStudio());
+    scene.cameras.push_back(frameCamera(scene, 1.0F));
+    return renderScene(scene, squareSettings(64, spp));
+}
+
+// By luminance of pixels that show the ball alone, and of those that show the backdrop alone.
+std::pair<double, double> ballAndBackdrop(const Film& film)
+{
+    double ball = 0.0, backdrop = 0.0, ofBall = 0.0, ofBackdrop = 0.0;
+    for (const PixelMoments& pixel : film.pixels) {
+        const double luminance = computeLuminance(glm::dvec3(pixel.mean));
+        (pixel.alpha == 1.0F ? ball : backdrop) += pixel.alpha == 1.0F || pixel.alpha == 0.0F ? luminance : 0.0;
+        (pixel.alpha == 1.0F ? ofBall : ofBackdrop) += pixel.alpha == 1.0F || pixel.alpha == 0.0F ? 1.0 : 0.0;
+    }
+    return {ball / ofBall, backdrop / ofBackdrop};
+}
+
+// Middle grey is shown as such, and no grey is lost against the backdrop as a whole.
+TEST(StudioTest, MiddleGreyIsMiddleGrey)
+{
+    const auto [ball, backdrop] = ballAndBackdrop(ballInStudio(makeLambert(glm::vec3(0.18F)), 64));
+    EXPECT_GE(ball, 0.18);
+    EXPECT_LE(ball, 0.25);
+    EXPECT_LT(backdrop, 0.25);
+    const auto [white, unused] = ballAndBackdrop(ballInStudio(makeLambert(glm::vec3(0.8F)), 64));
+    EXPECT_LT(white, 0.85) << "white is not burnt";
+}
+
+// A perfect mirror differs by 15 of 255 and more from the backdrop beside it in two of three pixels. At its rim it shows what is behind it.
+TEST(StudioTest, MirrorsDifferFromTheBackdrop)
+{
+    Material mirror;
+    mirror.roughness = 0.0F;
+    const Film film = ballInStudio(mirror, 16);
+    int pixels = 0, visible = 0;
+    for (std::uint32_t y = 0; y < 64; ++y) {
+        const PixelMoments* row = film.pixels.data() + std::size_t{y} * 64;
+        const double beside = 255.0 * srgbFromLinear(static_cast<double>(row[0].mean.g));
+        for (std::uint32_t x = 0; x < 64; ++x) {
+            if (row[x].alpha == 1.0F) {
+                ++pixels;
+                visible += std::abs(255.0 * srgbFromLinear(std::min(1.0, static_cast<double>(row[x].mean.g))) - beside) >= 15.0 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(pixels, 1000);
+    EXPECT_GE(3 * visible, 2 * pixels);
 }
 
 }  // namespace

@@ -282,6 +282,7 @@ Material MaterialReader::read()
     material.specular = numberOr(source_, kSpecular, "specularFactor", 1.0);
     material.specularColor = colorOr(source_, kSpecular, "specularColorFactor", glm::vec3(1.0F));
     material.emission = strength * glm::dvec3(emissive[0], emissive[1], emissive[2]);
+    material.isDisplay = source_.extensions.count("KHR_materials_emissive_strength") == 0;
     material.doubleSided = source_.doubleSided;
     material.alphaMode = source_.alphaMode == "MASK"    ? AlphaMode::Mask
                          : source_.alphaMode == "BLEND" ? AlphaMode::Blend
