@@ -183,7 +183,8 @@ glm::uvec2 defaultSize(const Camera& camera)
 {
     constexpr std::uint32_t kHeight = 512;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
-    const float aspectRatio = orthographic ? std::abs(camera.halfWidth / camera.halfHeight) : camera.aspectRatio.value_or(1.0F);
+    const float aspectRatio =
+        orthographic ? std::abs(camera.halfWidth / camera.halfHeight) : camera.aspectRatio.value_or(kUsualAspectRatio);
     const float bounded = std::clamp(aspectRatio, 1.0F / kMaxAspectRatio, kMaxAspectRatio);
     return {static_cast<std::uint32_t>(std::round(static_cast<float>(kHeight) * bounded)), kHeight};
 }

@@ -96,6 +96,7 @@ Camera frameCamera(const Scene& scene, float aspectRatio)
     }
     Camera camera;
     camera.name = "framed";
+    camera.aspectRatio = aspectRatio;
     const Framing framing = frame(corners, static_cast<double>(camera.yfov), static_cast<double>(aspectRatio));
     camera.position = center + framing.position;
     camera.forward = -framing.backward;

@@ -46,10 +46,11 @@ Triangle PlacedMesh::triangle(std::size_t triangle) const
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr WorldBox kEmptyWorldBox{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
 
 WorldBox computeMeshBox(const Mesh& mesh)
 {
-    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    WorldBox box = kEmptyWorldBox;
     for (const std::uint32_t index : mesh.indices) {
         box = {glm::min(box.low, glm::vec3(mesh.positions[index])), glm::max(box.high, glm::vec3(mesh.positions[index]))};
     }
@@ -66,19 +67,63 @@ WorldBox placeBox(const Scene& scene, const MeshInstance& instance, const WorldB
     return {glm::vec3(placed - extent), glm::vec3(placed + extent)};
 }
 
-std::span<const MeshInstance> ownInstances(const Scene& scene)
-{
-    return std::span(scene.instances).first(scene.instances.size() - scene.addedInstances);
-}
-
 std::span<const Sphere> ownSpheres(const Scene& scene) { return std::span(scene.spheres).first(scene.spheres.size() - scene.addedSpheres); }
 
-// Calls `take` with every vertex of a triangle that has a surface and was not added.
+WorldBox unite(const WorldBox& a, const WorldBox& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
+
+WorldBox boxOf(const Sphere& sphere) { return {sphere.center - sphere.radius, sphere.center + sphere.radius}; }
+
+float longestSide(const glm::vec3& extent) { return std::max({extent.x, extent.y, extent.z}); }
+
+// An instance that has triangles, and a box around it that may be larger than it where it is turned.
+struct PlacedBox {
+    const MeshInstance* instance;
+    WorldBox box;
+
+    glm::vec3 extent() const { return box.high - box.low; }
+    bool isFlat() const { return extent().y <= 0.05F * std::max(extent().x, extent().z); }
+};
+
+std::vector<PlacedBox> placeOwnBoxes(const Scene& scene)
+{
+    std::vector<WorldBox> meshes;
+    for (const Mesh& mesh : scene.meshes) {
+        meshes.push_back(computeMeshBox(mesh));
+    }
+    std::vector<PlacedBox> boxes;
+    for (const MeshInstance& instance : std::span(scene.instances).first(scene.instances.size() - scene.addedInstances)) {
+        if (!scene.meshes[instance.mesh].indices.empty()) {
+            boxes.push_back({&instance, placeBox(scene, instance, meshes[instance.mesh])});
+        }
+    }
+    return boxes;
+}
+
+// What was not added, without grounds: what is flat and several times as long as all that is not.
+std::vector<PlacedBox> listSubjects(const Scene& scene)
+{
+    constexpr float kGround = 5.0F;
+    std::vector<PlacedBox> boxes = placeOwnBoxes(scene);
+    WorldBox upright = kEmptyWorldBox;
+    for (const PlacedBox& placed : boxes) {
+        upright = placed.isFlat() ? upright : unite(upright, placed.box);
+    }
+    for (const Sphere& sphere : ownSpheres(scene)) {
+        upright = unite(upright, boxOf(sphere));
+    }
+    const float longest = longestSide(upright.high - upright.low);
+    if (longest > 0.0F) {
+        std::erase_if(boxes, [&](const PlacedBox& placed) { return placed.isFlat() && longestSide(placed.extent()) > kGround * longest; });
+    }
+    return boxes;
+}
+
+// Calls `take` with every vertex of a subject's triangle that has a surface.
 template <class Take>
 void visitVertices(const Scene& scene, Take take)
 {
-    for (const MeshInstance& instance : ownInstances(scene)) {
-        const PlacedMesh placed(scene, instance);
+    for (const PlacedBox& subject : listSubjects(scene)) {
+        const PlacedMesh placed(scene, *subject.instance);
         for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
             const Triangle triangle = placed.triangle(i);
             if (faceNormal(triangle) != glm::dvec3(0.0)) {
@@ -90,7 +135,7 @@ void visitVertices(const Scene& scene, Take take)
 
 WorldBox computeTriangleBox(const Scene& scene)
 {
-    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    WorldBox box = kEmptyWorldBox;
     visitVertices(scene, [&box](const glm::vec3& vertex) { box = {glm::min(box.low, vertex), glm::max(box.high, vertex)}; });
     return box;
 }
@@ -100,16 +145,9 @@ bool isLarge(const Scene& scene) { return countTriangles(countMeshUses(scene)) >
 // Quicker, and larger where meshes are turned.
 WorldBox computeBoxOfMeshBoxes(const Scene& scene)
 {
-    std::vector<WorldBox> meshes;
-    for (const Mesh& mesh : scene.meshes) {
-        meshes.push_back(computeMeshBox(mesh));
-    }
-    WorldBox box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-    for (const MeshInstance& instance : ownInstances(scene)) {
-        if (!scene.meshes[instance.mesh].indices.empty()) {
-            const WorldBox placed = placeBox(scene, instance, meshes[instance.mesh]);
-            box = {glm::min(box.low, placed.low), glm::max(box.high, placed.high)};
-        }
+    WorldBox box = kEmptyWorldBox;
+    for (const PlacedBox& subject : listSubjects(scene)) {
+        box = unite(box, subject.box);
     }
     return box;
 }
@@ -120,7 +158,7 @@ WorldBox computeWorldBox(const Scene& scene)
 {
     WorldBox box = isLarge(scene) ? computeBoxOfMeshBoxes(scene) : computeTriangleBox(scene);
     for (const Sphere& sphere : ownSpheres(scene)) {
-        box = {glm::min(box.low, sphere.center - sphere.radius), glm::max(box.high, sphere.center + sphere.radius)};
+        box = unite(box, boxOf(sphere));
     }
     return box.low.x <= box.high.x ? box : WorldBox{glm::vec3(-1.0F), glm::vec3(1.0F)};
 }

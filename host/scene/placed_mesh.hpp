@@ -33,7 +33,8 @@ private:
     std::vector<glm::vec3> positions_;  // by vertex
 };
 
-// The bounds of everything that has a surface and was not added to the scene; 2 m of each axis where nothing has.
+// The bounds of everything that has a surface, was not added to the scene and is no ground: flat and several times as long as all that is
+// not flat. 2 m of each axis where nothing is.
 struct WorldBox {
     glm::vec3 low, high;  // relative to the scene's origin
 };

@@ -56,6 +56,34 @@ TEST(FrameCamera, CentresAndFillsWhateverTheShape)
     }
 }
 
+// What is flat and more than five times as long as all that stands on it is a ground. It changes neither camera nor turntable.
+TEST(FrameCamera, HugeGroundsAreLeftOut)
+{
+    const auto standing = [](float groundSize) {
+        Triangles box = sliverBox(2);
+        Scene scene = makeTestScene(box);
+        if (groundSize > 0.0F) {
+            const float g = groundSize;
+            addMesh(scene, {{{glm::vec3(-g, -1, g), {g, -1, g}, {g, -1, -g}}}, {{glm::vec3(-g, -1, g), {g, -1, -g}, {-g, -1, -g}}}});
+        }
+        return scene;
+    };
+    const Camera without = frameCamera(standing(0.0F), 1.5F);
+    const Pose turned = frameTurntable(standing(0.0F), 1.5F, 4)[1];
+    for (const float huge : {6.0F, 1000.0F}) {
+        EXPECT_EQ(frameCamera(standing(huge), 1.5F).position, without.position) << huge;
+        EXPECT_EQ(frameTurntable(standing(huge), 1.5F, 4)[1].from, turned.from) << huge;
+    }
+    EXPECT_GT(glm::length(frameCamera(standing(4.0F), 1.5F).position), 1.5F * glm::length(without.position)) << "a floor";
+    Scene sphere = standing(1000.0F);
+    sphere.instances.erase(sphere.instances.begin());
+    sphere.spheres.push_back({"", {0, 0, 0}, 1.0F, 0});
+    EXPECT_LT(glm::length(frameCamera(sphere, 1.5F).position), 10.0F);
+    Scene ground = standing(1000.0F);
+    ground.instances.erase(ground.instances.begin());
+    EXPECT_GT(glm::length(frameCamera(ground, 1.5F).position), 1000.0F) << "alone it is the subject";
+}
+
 // The box turns about its axis. From every side it is within the margin, and from one it reaches it.
 TEST(FrameCamera, TurntablesShowTheBoxFromEverySide)
 {

@@ -107,6 +107,7 @@ TEST(GltfSize, CamerasBeyondSixteenToOneAreSaidAndBounded)
         builder.addNode({{"camera", camera}});
     }
     const Scene scene = load(builder);
+    EXPECT_EQ(defaultSize(Camera()), glm::uvec2(910, 512)) << "16:9 without an aspect ratio";
     EXPECT_EQ(defaultSize(scene.cameras.at(0)), glm::uvec2(8192, 512));
     EXPECT_EQ(defaultSize(scene.cameras.at(1)), glm::uvec2(8192, 512));
     EXPECT_EQ(defaultSize(scene.cameras.at(2)), glm::uvec2(32, 512));
