@@ -70,12 +70,13 @@ std::optional<Message> adviseExposure(const Film& film, const Look& look)
     }
     const auto place = luminances.begin() + static_cast<std::ptrdiff_t>((1.0 - kExceeding) * (count - 1.0));
     std::nth_element(luminances.begin(), place, luminances.end());
-    if (!(*place > 0.0)) {
-        return std::nullopt;  // a few lights in the dark
+    char share[32], stops[32];
+    std::snprintf(share, sizeof share, burnt ? "%.0f %%" : "%.2g %%", burnt ? 100.0 * clipped / count : 100.0 * sum * scale / count);
+    if (!(*place > 0.0)) {  // a few lights in the dark
+        return Message(MessageId::ExposureAdvised, {"is almost black: its mean is ", part::value(share), " of white; ",
+                                                    part::expected("--environment studio"), " lights it"});
     }
     const double advice = std::clamp(std::floor(10.0 * std::log2(kShownAs / *place)) / 10.0, -100.0, 100.0);
-    char share[32], stops[32];
-    std::snprintf(share, sizeof share, burnt ? "%.0f %%" : "%.2g %%", 100.0 * (burnt ? clipped : sum * scale) / count);
     std::snprintf(stops, sizeof stops, "%.1f", advice);
     return Message(MessageId::ExposureAdvised, {burnt ? "is burnt out: " : "is almost black: its mean is ", part::value(share),
                                                 burnt ? " of what it shows is white; " : " of white; ", part::place("--exposure"), " ",

@@ -84,7 +84,8 @@ Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range,
     case Aov::BvhSteps: return roundToBytes(heatColor(placeOnScale(static_cast<double>(pixel.mean.r), low, high, kSmallestScale)));
     case Aov::Radiance: break;
     }
-    return srgb(pixel.mean, look);
+    return srgb(pixel.mean,
+                {look.exposure, static_cast<Tone>(toneOfPixel(pixel.mean, pixel.albedo, static_cast<std::uint32_t>(look.tone)))});
 }
 
 }  // namespace glim

@@ -46,7 +46,7 @@ vec3 displayColor(PixelMoments pixel, uint aov, DisplayPass pass)
     case kAovAlbedo: return roundToBytes(lightColor(pass.scale * pixel.albedo));
     case kAovSampleCount: return roundToBytes(heatColor(placeOnScale(float(pixel.count), pass.low, pass.high, 1.0)));
     case kAovBvhSteps: return roundToBytes(heatColor(placeOnScale(pixel.mean.r, pass.low, pass.high, kSmallestScale)));
-    default: return roundToBytes(lightColor(mapTone(pass.scale * pixel.mean, pass.tone)));
+    default: return roundToBytes(lightColor(mapTone(pass.scale * pixel.mean, toneOfPixel(pixel.mean, pixel.albedo, pass.tone))));
     }
 }
 

@@ -58,5 +58,8 @@ GLIM_FUNCTION vec3 mapTone(vec3 c, uint tone)
     return clamp(toneAgx(bounded), 0.0F, 1.0F);
 }
 
+// The tone for a pixel. Where its mean is its albedo, bit for bit, it shows an unlit surface alone, whose colour stays as the file has it.
+GLIM_FUNCTION uint toneOfPixel(vec3 mean, vec3 albedo, uint tone) { return mean == albedo ? kToneNone : tone; }
+
 GLIM_SHARED_END
 #endif

@@ -87,7 +87,10 @@ TEST(ExposureAdviceTest, BlackIsSaidWithoutAnExposure)
     EXPECT_EQ(advice->expected, "");
     Film lamp = makeFilm(0.0F);
     lamp.pixels[3].mean = vec3(1.0F);
-    EXPECT_EQ(adviseExposure(lamp, {}), std::nullopt) << "a lamp in the dark";
+    const auto lights = adviseExposure(lamp, {});
+    ASSERT_TRUE(lights) << "a lamp in the dark, which no exposure shows";
+    EXPECT_EQ(lights->value, "0.1 %");
+    EXPECT_EQ(lights->expected, "--environment studio");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using test::Rgb;
 using test::ScratchFolder;
 
 const Rgb kBlack{0, 0, 0}, kBlue{0, 0, 255}, kRed{255, 0, 0}, kBad{255, 0, 255};
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNanFloat = std::numeric_limits<float>::quiet_NaN(), kInfiniteFloat = std::numeric_limits<float>::infinity();
 
 // A pixel of one sample that a share `alpha` of the rays had a surface for.
 PixelMoments pixel(const glm::vec3& mean, float alpha = 1.0F)
@@ -77,8 +77,9 @@ TEST(HeatColor, GoesFromBlueToRed)
 TEST(FilmPictures, LightAndAlbedoAreExposedSrgb)
 {
     for (const Aov aov : {Aov::Radiance, Aov::Albedo}) {
-        EXPECT_EQ(picture(aov, {pixel({0.25F, 0, 9}), pixel({0.09F, -1, 0.5F}), pixel({0, kNan, 0}), pixel({0, 0, -kInfinity})}, 1.0),
-                  (std::vector<Rgb>{{188, 0, 255}, {118, 0, 255}, kBad, kBad}));
+        EXPECT_EQ(
+            picture(aov, {pixel({0.25F, 0, 9}), pixel({0.09F, -1, 0.5F}), pixel({0, kNanFloat, 0}), pixel({0, 0, -kInfiniteFloat})}, 1.0),
+            (std::vector<Rgb>{{188, 0, 255}, {118, 0, 255}, kBad, kBad}));
         EXPECT_EQ(picture(aov, {pixel({0.25F, 0, 0})}, -1.0), (std::vector<Rgb>{{srgbByte(0.125), 0, 0}}));
     }
 }
@@ -86,7 +87,10 @@ TEST(FilmPictures, LightAndAlbedoAreExposedSrgb)
 TEST(FilmPictures, TonesAreOfLightAlone)
 {
     // Neutral: .3 loses .04, and 1 becomes 1 - .24^2 / (.96 + .24 - .76).
-    const std::vector<PixelMoments> pixels{pixel(glm::vec3(0.15F)), pixel(glm::vec3(0.5F)), pixel({kNan, 0, 0})};
+    std::vector<PixelMoments> pixels{pixel(glm::vec3(0.15F)), pixel(glm::vec3(0.5F)), pixel({kNanFloat, 0, 0})};
+    for (PixelMoments& one : pixels) {
+        one.albedo = glm::vec3(0.4F);
+    }
     const auto drawn = [&](Aov aov, Tone tone) {
         std::vector<Rgb8> colors;
         for (const PixelMoments& one : pixels) {
@@ -98,6 +102,11 @@ TEST(FilmPictures, TonesAreOfLightAlone)
     EXPECT_EQ(drawn(Aov::Radiance, Tone::Neutral), (std::vector<Rgb8>{grey(0.26), grey(1.0 - 0.0576 / 0.44), kMagenta}));
     EXPECT_EQ(drawn(Aov::Albedo, Tone::Neutral), drawn(Aov::Albedo, Tone::None));
     EXPECT_EQ(drawn(Aov::Normal, Tone::Agx), drawn(Aov::Normal, Tone::None));
+    for (PixelMoments& one : pixels) {
+        one.albedo = one.mean;  // as of unlit surfaces, whose colours stay
+    }
+    EXPECT_EQ(drawn(Aov::Radiance, Tone::Neutral), drawn(Aov::Radiance, Tone::None));
+    EXPECT_EQ(drawn(Aov::Radiance, Tone::Agx), drawn(Aov::Radiance, Tone::None));
 }
 
 TEST(FilmPictures, AnExposureIsChosenByTheLogAverage)
@@ -113,7 +122,7 @@ TEST(FilmPictures, AnExposureIsChosenByTheLogAverage)
     EXPECT_EQ(chosen({pixel({0, 0.18F, 0})}), 0.48) << "-log2 of .7152, to a hundredth";
     PixelMoments none = bright;
     none.count = 0;
-    EXPECT_EQ(chosen({dark, pixel(glm::vec3(0)), pixel(glm::vec3(-1)), pixel({kNan, 1, 1}), pixel({kInfinity, 1, 1}), none}), 1.0)
+    EXPECT_EQ(chosen({dark, pixel(glm::vec3(0)), pixel(glm::vec3(-1)), pixel({kNanFloat, 1, 1}), pixel({kInfiniteFloat, 1, 1}), none}), 1.0)
         << "others have no logarithm";
     EXPECT_EQ(chosen({pixel(glm::vec3(0))}), 0.0);
     EXPECT_EQ(chosen({}), 0.0);
@@ -126,7 +135,7 @@ TEST(FilmPictures, AnExposureIsChosenByTheLogAverage)
 TEST(FilmPictures, NormalsAreBytesWithoutACurve)
 {
     const std::vector<PixelMoments> pixels{pixel({1, 0, -1}), pixel({0, 0.6F, 0.8F}), pixel({0, 0, 0}, 0.0F), pixel({0, 0, 0.25F}, 0.25F),
-                                           pixel({kNan, 0, 0})};
+                                           pixel({kNanFloat, 0, 0})};
     const std::vector<Rgb> expected{{255, 128, 0}, {128, 204, 230}, kBlack, {128, 128, 255}, kBad};
     EXPECT_EQ(picture(Aov::Normal, pixels), expected);
     EXPECT_EQ(picture(Aov::Normal, pixels, 3.0), expected) << "exposure is of light";
@@ -140,7 +149,7 @@ TEST(FilmPictures, DepthGoesFromWhiteToDark)
         return moments;
     };
     // 2 to 10 metres; the half-covered pixel's surface is at 6; dark is an eighth.
-    EXPECT_EQ(picture(Aov::Depth, {at(2), at(10), at(6, 0.5F), at(0, 0), pixel(glm::vec3(kNan))}),
+    EXPECT_EQ(picture(Aov::Depth, {at(2), at(10), at(6, 0.5F), at(0, 0), pixel(glm::vec3(kNanFloat))}),
               (std::vector<Rgb>{{255, 255, 255}, {32, 32, 32}, {143, 143, 143}, kBlack, kBad}));
     EXPECT_EQ(picture(Aov::Depth, {at(3), at(3)}), (std::vector<Rgb>(2, {255, 255, 255})));
     EXPECT_EQ(picture(Aov::Depth, {at(0, 0)}), (std::vector<Rgb>{kBlack}));
@@ -148,7 +157,8 @@ TEST(FilmPictures, DepthGoesFromWhiteToDark)
 
 TEST(FilmPictures, StepsAreHeatWhoseScaleAFewPixelsDoNotSet)
 {
-    const std::vector<PixelMoments> few{pixel({0, 50, 0}), pixel({20, 0, 0}), pixel({40, 0, 0}), pixel({40, 1, 0}), pixel({kNan, 0, 0})};
+    const std::vector<PixelMoments> few{pixel({0, 50, 0}), pixel({20, 0, 0}), pixel({40, 0, 0}), pixel({40, 1, 0}),
+                                        pixel({kNanFloat, 0, 0})};
     EXPECT_EQ(picture(Aov::BvhSteps, few), (std::vector<Rgb>{kBlue, {0, 255, 0}, kRed, kRed, kBad}));
     std::vector<PixelMoments> pixels(2000, pixel({8, 0, 0}));
     pixels[0] = pixel({4, 0, 0});

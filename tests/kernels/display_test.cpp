@@ -44,7 +44,7 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
         c.pixel.count = static_cast<std::uint32_t>(1 + random() % 5000);
         c.pixel.mean = {value(random), value(random), value(random)};
         c.pixel.alpha = random() % 4 == 0 ? 0.0F : unit(random);
-        c.pixel.albedo = {unit(random), unit(random), unit(random)};
+        c.pixel.albedo = i % 11 == 0 ? c.pixel.mean : vec3(unit(random), unit(random), unit(random));  // as of unlit surfaces
         c.pixel.normal = c.pixel.alpha * glm::normalize(vec3(unit(random) - 0.5F, unit(random) - 0.5F, 0.2F));
         c.pixel.depth = c.pixel.alpha > 0.0F ? value(random) : std::numeric_limits<float>::infinity();
         if (i % 97 == 0) {
