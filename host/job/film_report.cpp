@@ -1,5 +1,6 @@
 #include "host/job/film_report.hpp"
 
+#include "host/measure/error_bound.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -80,6 +81,17 @@ std::size_t pixelsWithoutError(const Film& film)
         std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks < 2; }));
 }
 
+std::optional<double> boundError(const Film& film, const RenderSettings& settings)
+{
+    if (settings.aov != Aov::Radiance || isCourse(settings.adaptive) || pixelsWithoutError(film) == 0) {
+        return std::nullopt;
+    }
+    const Picture picture = makePicture(film);
+    const std::optional<double> mse = boundMse(picture);
+    const double share = mse ? relativeRoot(*mse, meanRadiance(picture)) : 0.0;
+    return share > 0.0 && std::isfinite(share) ? std::optional(share) : std::nullopt;
+}
+
 std::string whyUnknown(const Film& film)
 {
     if (const std::size_t pixels = pixelsWithoutError(film); pixels > 0) {
@@ -115,7 +127,10 @@ std::string errorText(const Film& film, const RenderSettings& settings)
 {
     const auto estimate = knownError(film, settings);
     if (!estimate) {
-        return ", error unknown: " + whyUnknown(film);
+        const auto bound = boundError(film, settings);
+        return bound ? format(", RMSE at most %.3g %% of the mean (by how neighbouring pixels differ; more samples give an estimate)",
+                              100.0 * *bound)
+                     : ", error unknown: " + whyUnknown(film);
     }
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, estimate->mean); };
     std::string text =

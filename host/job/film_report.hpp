@@ -52,6 +52,9 @@ inline constexpr std::uint32_t kSamplesOfUnknownError = 1024;
 // The number of pixels with at most one block of samples.
 std::size_t pixelsWithoutError(const Film& film);
 
+// At most this is the RMSE of a film whose pixels have too few samples for an estimate, relative to the mean (boundMse).
+std::optional<double> boundError(const Film& film, const RenderSettings& settings);
+
 // Of a film whose error is unknown, as in "the picture is black".
 std::string whyUnknown(const Film& film);
 

@@ -48,6 +48,7 @@ void addOutput(OptionTable& table, RenderJob& options)
     addLook(table, options.look, "the picture", "none; neutral in the built-in studio");
     const Option denoise =
         table.addFlag("--denoise", "Also write a denoised picture and its measured error; the PNG shows it", options.denoise);
+    table.addFlag("--no-denoise", "Leave a picture noisy that is written without its film", options.noDenoise).excludes(denoise);
     table.addPath("--oidn", "PATH", "Library of Open Image Denoise that denoises instead, or its folder [glim's own]", options.oidn)
         .needs(denoise);
     table.option("--denoised").needs(denoise);

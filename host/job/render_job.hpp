@@ -15,7 +15,7 @@ struct RenderJob : PictureOptions {
     PictureFiles pictures;
     std::optional<std::filesystem::path> rates, ids, stats;
     SequenceOptions sequence;
-    bool denoise = false;
+    bool denoise = false, noDenoise = false;    // a picture of few samples that is written without its film is denoised unless noDenoise
     std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser
     CheckpointOptions checkpoint;
     std::optional<SamplePlace> replay;  // instead of a picture

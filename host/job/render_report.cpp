@@ -36,6 +36,12 @@ double shortest(float value)
     return std::strtod(text, nullptr);
 }
 
+Json boundOf(const RenderReport& report)
+{
+    const auto bound = boundError(report.film, report.options.settings);
+    return bound ? Json(*bound) : Json(nullptr);
+}
+
 Json clampingOf(const Film& film, const RenderJob& options)
 {
     if (!std::isfinite(options.settings.clampIndirect)) {
@@ -196,6 +202,7 @@ Json statisticsOf(const RenderReport& report)
             {"look", lookOf(report)},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", describeEstimate(report.film, report.options.settings)},
+            {"rmseOfMeanBound", boundOf(report)},
             {"denoised", report.denoising ? denoisingJson(*report.denoising) : Json(nullptr)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},

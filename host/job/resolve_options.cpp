@@ -251,8 +251,24 @@ void resolveTarget(const OptionTable& table, RenderJob& job)
     }
 }
 
+// A picture alone is to be looked at, and looks better denoised: measured for 64 samples, the median of twenty scenes has a third of the
+// noisy picture's mean squared error, after a third more time (tests/denoising.md). Films and targets are for more samples than
+// kMaxSamples.
+bool isDenoisedUnasked(const RenderJob& job)
+{
+    constexpr std::uint32_t kMaxSamples = 1024;
+    constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 23U;  // the halves of more take over 2 GB
+    const RenderSettings& settings = job.settings;
+    const std::uint32_t samples = settings.sampleEnd - settings.sampleBegin;
+    const std::uint64_t pixels = job.size ? std::uint64_t{job.size->x} * job.size->y : 0;
+    return !job.noDenoise && !job.output && !job.pictures.empty() && !job.target.isGiven() && !settings.seconds && !settings.rows &&
+           settings.aov == Aov::Radiance && settings.adaptive == Adaptive::Off && samples >= minSamplesForError(settings.sampleBegin) &&
+           samples <= kMaxSamples && pixels <= kMaxPixels;
+}
+
 void resolveDenoise(const OptionTable& table, RenderJob& job)
 {
+    job.denoise = job.denoise || isDenoisedUnasked(job);
     if (!job.denoise) {
         return;
     }

@@ -14,14 +14,14 @@ namespace {
 
 using test::Parts;
 
-// "render x.gltf -o x.exr" with `options`, words separated by spaces.
+// "render x.gltf -o x.exr" with `options`, words separated by spaces; they may name another output.
 RenderJob parse(const std::string& options)
 {
     CommandLine line("", "", "");
     RenderJob parsed;
     addJobOptions(line.addCommand("render", ""), parsed);
     std::vector<std::string> words{"render", "x.gltf"};
-    if (options.find("--replay") == std::string::npos) {
+    if (options.find("--replay") == std::string::npos && options.find("-o ") == std::string::npos) {
         words.insert(words.end(), {"-o", "x.exr"});
     }
     std::istringstream stream(options);
@@ -251,6 +251,21 @@ TEST(RenderJob, PicturesHaveALook)
     expectRefused("--image p.webp --size 16384x4", MessageId::TooLarge, {.place = "--image", .value = "p.webp", .expected = "--size"});
     EXPECT_EQ(parse("--image p.webp --size 16383x4").size->x, 16383U);
     expectRefused("--image p.jpg --replay 0,0,1", MessageId::Conflict, {.place = "--image", .value = "p.jpg"});
+}
+
+TEST(RenderJob, APictureOfFewSamplesAloneIsDenoised)
+{
+    for (const char* options :
+         {"-o x.png", "-o x.jpg --image y.webp", "-o x.png --spp 1024", "-o #.png --turntable 3", "-o x.png --size 3840x2160"}) {
+        EXPECT_TRUE(parse(options).denoise && parse(options).settings.halves) << options;
+    }
+    for (const char* options : {"-o x.exr", "-o x.exr --image x.png", "-o x.png --no-denoise", "-o x.png --spp 63", "-o x.png --spp 1025",
+                                "-o x.png --time 9", "-o x.png --target-rmse 1%", "-o x.png --view normal", "-o x.png --rows 0:9",
+                                "-o x.png --adaptive neighbours --spp 128", "-o x.png --size 8192x2048"}) {
+        EXPECT_FALSE(parse(options).denoise || parse(options).settings.halves) << options;
+    }
+    EXPECT_TRUE(parse("-o x.png --spp 2048 --denoise").denoise);
+    expectRefused("-o x.png --denoise --no-denoise", MessageId::Conflict, {.place = "--denoise", .value = "--no-denoise"});
 }
 
 TEST(RenderJob, ReplaysTakeTheSamplesThatARenderWouldHave)

@@ -122,6 +122,7 @@ TEST(CommandLineTest, AnOutputMayBeAPicture)
     EXPECT_TRUE(contains(merged.err, "into " + (folder / "merged.png").string())) << merged.err;
     EXPECT_EQ(readFileBytes(folder / "merged.png"), readFileBytes(folder / "beside.png"));
     EXPECT_EQ(folder.entries(), 6);
+    EXPECT_TRUE(contains(alone.out, "RMSE at most ")) << "of four samples: " << alone.out;
     EXPECT_EQ(run({"-o", "same.png", "--image", "same.png"}).exitCode, 2);
     EXPECT_EQ(run({"-o", "none/x.png"}).exitCode, 1);
     for (const Arguments& kept : {Arguments{"--resume"}, Arguments{"--checkpoint", "5m"}}) {
@@ -132,6 +133,28 @@ TEST(CommandLineTest, AnOutputMayBeAPicture)
         EXPECT_TRUE(contains(refused.err, "--output FILE.exr")) << refused.err;
     }
     EXPECT_EQ(folder.entries(), 6);
+}
+
+TEST(CommandLineTest, APictureAloneIsDenoisedAndSaysBothErrors)
+{
+    const ScratchFolder folder;
+    const auto draw = [&folder](const std::string& output, const Arguments& options) {
+        GlimCall call;
+        call.arguments = {"render", sceneFile("cornell.gltf"), "--size", "24x24", "-o", output};
+        call.arguments.insert(call.arguments.end(), options.begin(), options.end());
+        call.folder = folder.path();
+        const GlimRun run = runGlim(call);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return run.out;
+    };
+    const std::string said = draw("alone.png", {});
+    EXPECT_TRUE(contains(said, "estimated relMSE") && contains(said, "denoised: measured RMSE") && contains(said, "(noisy ")) << said;
+    EXPECT_FALSE(contains(draw("noisy.png", {"--no-denoise"}), "denoised"));
+    EXPECT_FALSE(contains(draw("film.exr", {"--image", "ofFilm.png"}), "denoised"));
+    draw("denoised.exr", {"--denoise", "--image", "ofDenoised.png"});
+    EXPECT_EQ(readFileBytes(folder / "alone.png"), readFileBytes(folder / "ofDenoised.png"));
+    EXPECT_EQ(readFileBytes(folder / "noisy.png"), readFileBytes(folder / "ofFilm.png"));
+    EXPECT_NE(readFileBytes(folder / "alone.png"), readFileBytes(folder / "noisy.png"));
 }
 
 TEST(CommandLineTest, ExposureIsAppliedToThePngOnly)

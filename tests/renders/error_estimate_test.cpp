@@ -1,6 +1,7 @@
 // H30: the variance that a picture reports is that of pictures with other seeds, and the interval of its error holds the error.
 #include "host/measure/error_estimate.hpp"
 #include "host/measure/compare_images.hpp"
+#include "host/measure/error_bound.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
 #include "shaders/shared/limits.h"
@@ -171,6 +172,23 @@ TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
     if (settings.sampler == Sampler::Sobol && !settings.caustics) {
         compareWithSamples(spread);
     }
+}
+
+// Of few samples there is only a bound, which scrambled points keep too. It is larger than the error where the picture has edges.
+TEST_P(ErrorEstimateTest, FewSamplesHaveABound)
+{
+    settings.sampleEnd = 8;
+    const std::vector<Film> films = renderSeeds(GetParam().value.scene(), settings, kSeeds);
+    const std::vector<glm::dvec3> mean = meanPicture(films);
+    double covered = 0.0, ratio = 0.0;
+    for (const Film& film : films) {
+        const double bound = boundMse(makePicture(film)).value(), error = squaredErrors(film, mean, kSeeds).mse;
+        covered += bound >= error ? 1.0 : 0.0;
+        ratio += std::sqrt(bound / error) / kSeeds;
+    }
+    std::printf("  the bound holds for %.0f of %u renders, and is %.3g times the RMSE on average\n", covered, kSeeds, ratio);
+    EXPECT_GE(covered, minCovered(kSeeds));
+    EXPECT_LT(ratio, 10.0);
 }
 
 // A pixel that has met a caustic has a large variance and a large radiance. Relative to its own square, its error seems a
