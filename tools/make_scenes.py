@@ -8,10 +8,11 @@ import argparse
 import os
 import sys
 
-from whole_file import write_whole
-from scene_makers.large_scenes import BUNNY, LARGE_SCENES, cornell_bunny
-from scene_makers.refused_scenes import REFUSED
-from scene_makers.small_scenes import SMALL_SCENES
+sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
+from whole_file import write_whole  # noqa: E402
+from scene_makers.large_scenes import BUNNY, LARGE_SCENES, cornell_bunny  # noqa: E402
+from scene_makers.refused_scenes import REFUSED  # noqa: E402
+from scene_makers.small_scenes import SMALL_SCENES  # noqa: E402
 
 SCENES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "scenes")
 

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Draws what `glim bench` has written: errors against seconds and against samples, a figure for each scene."""
 
 import argparse
@@ -8,10 +8,6 @@ import os
 import sys
 
 sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
-try:
-    from study_page import plots
-except ImportError:
-    sys.exit("tools/plot_bench.py: this python3 cannot import matplotlib; tools/plot_bench finds or installs one that can")
 from whole_file import write_whole  # noqa: E402
 
 
@@ -72,9 +68,18 @@ def draw_slope(axes, benches, error):
         axes.plot([x, end], [value, value * (end / x) ** power], color="#888888", marker="", linewidth=0.8, zorder=0)
 
 
-def draw_scene(scene, named):
+def import_pyplot():
+    # Only now: --help and a refusal need no matplotlib.
+    try:
+        from study_page.plots import pyplot
+    except ImportError:
+        sys.exit("tools/plot_bench.py: this python3 cannot import matplotlib; tools/plot_bench finds or installs one that can")
+    return pyplot
+
+
+def draw_scene(pyplot, scene, named):
     """named: (name, bench) of the same scene."""
-    figure, grid = plots.pyplot.subplots(2, 2, figsize=(9.6, 7.6), sharex="col", sharey="row")
+    figure, grid = pyplot.subplots(2, 2, figsize=(9.6, 7.6), sharex="col", sharey="row")
     for row, error in zip(grid, ("relMSE", "RMSE")):
         for axes, axis in zip(row, ("seconds", "samples")):
             for name, bench in named:
@@ -126,12 +131,13 @@ def main():
         for bench in read(path):
             stem = os.path.splitext(os.path.basename(bench["scene"]))[0]
             scenes.setdefault((stem, tuple(bench["size"])), []).append((name, bench))
+    pyplot = import_pyplot()
     stem, extension = os.path.splitext(options.output)
     for (scene, size), named in scenes.items():
         path = options.output if len(scenes) == 1 else "%s.%s-%dx%d%s" % (stem, scene, *size, extension)
         try:
             figure = io.BytesIO()
-            draw_scene(scene, named).savefig(figure, format=extension[1:], dpi=120)
+            draw_scene(pyplot, scene, named).savefig(figure, format=extension[1:], dpi=120)
             write_whole(path, figure.getvalue())
         except OSError as error:
             sys.exit("tools/plot_bench: %s: %s" % (path, error.strerror))

@@ -2,7 +2,7 @@
 # To be sourced by bash. Everything it says goes to stderr: stdout belongs to the program.
 
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
-setupLog=$root/build/setup.log
+setupLog=  # of this call, once it has one
 
 # Package and what it is for; the same names in Debian 12 and 13.
 buildPackages=(
@@ -65,6 +65,21 @@ testPackages=(
     "${formatPackages[@]}"
 )
 
+# asksForHelp ARGUMENT...: for help nothing is installed and nothing is built.
+asksForHelp() {
+    local argument
+    for argument in "$@"; do
+        [[ $argument == --help || $argument == --help-all || $argument == -h ]] && return
+    done
+    return 1
+}
+
+# asksPythonForHelp ARGUMENT...: the same, of a program that needs python3 to say what it does.
+asksPythonForHelp() {
+    asksForHelp "$@" || return
+    command -v python3 >/dev/null || fail "no python3 was found, which prints this help; $(namePackages python3)"
+}
+
 say() { printf 'glim: %s\n' "$*" >&2; }
 
 # fail SENTENCE: shows what the failed step wrote, then the sentence.
@@ -90,9 +105,43 @@ asRoot() {
     fi
 }
 
+# showProgress WHAT: copies its input to the log, and says how far it is: every second on a terminal, else every ten seconds.
+showProgress() {
+    local line part='' start=$SECONDS next period=10 redraw='' end='\n' done='' status
+    [[ -t 2 ]] && period=1 redraw='\r\033[K' end=''
+    next=$((start + period))
+    while true; do
+        status=0
+        IFS= read -r -t 1 line || status=$?
+        part+=$line  # after a second without the end of a line, that is what has come of it
+        if [[ $status == 0 ]]; then
+            printf '%s\n' "$part" >>"$setupLog"
+            [[ $part =~ ^\[([0-9]+)/([0-9]+)\] ]] && done="${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps"  # ninja's
+            part=''
+        elif [[ $status -le 128 ]]; then
+            break
+        fi
+        if [[ $SECONDS -ge $next ]]; then
+            printf "${redraw}glim: %s, %s$end" "$1" "${done:-$((SECONDS - start)) s}" >&2
+            next=$((SECONDS + period))
+        fi
+    done
+    printf '%s' "$part" >>"$setupLog"
+    printf "$redraw" >&2
+}
+
+# updateLists: fetches apt's lists of packages. Fails if no server answers within 15 s: apt itself waits for minutes.
+updateLists() {
+    local update=(env LC_ALL=C apt-get update -q) status=0
+    asRoot timeout --foreground 15 "${update[@]}" </dev/null 2>&1 | showProgress "fetching apt's lists" || status=$?
+    grep -qE '^(Get|Hit):' "$setupLog" || return
+    # A slow network gets its time. What is there already is not fetched again.
+    [[ $status != 124 ]] || asRoot "${update[@]}" </dev/null 2>&1 | showProgress "fetching apt's lists" || true
+}
+
 # installMissing PACKAGE_LINE...
 installMissing() {
-    local installed line missing=() names=()
+    local installed line missing=() names=() offline=()
     installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "${@%% *}" 2>/dev/null | sed -n 's/ installed$//p' || true)
     for line in "$@"; do
         if ! grep -qxF -- "${line%% *}" <<<"$installed"; then
@@ -103,14 +152,13 @@ installMissing() {
     [[ ${#names[@]} == 0 ]] && return
     say "installing with apt-get what is missing:"
     printf '    %s\n' "${missing[@]}" >&2
-    if [[ $(id -u) != 0 ]] && ! command -v sudo >/dev/null; then
-        fail "neither root nor sudo is at hand; as root, run: apt-get install ${names[*]}"
-    fi
-    # Stale lists are no reason to give up: the packages may still be there.
-    asRoot apt-get update -qq </dev/null >>"$setupLog" 2>&1 || true
-    asRoot env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-        -o DPkg::Lock::Timeout=300 "${names[@]}" </dev/null >>"$setupLog" 2>&1 ||
-        fail "apt-get could not install: ${names[*]}"
+    # Before there is progress to show, since sudo may ask for a password.
+    asRoot apt-get --version >/dev/null || fail "neither root nor sudo is at hand; as root, run: apt-get install ${names[*]}"
+    # Without a network the packages may still be there.
+    updateLists || offline=(--no-download)
+    asRoot env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${offline[@]}" \
+        -o DPkg::Lock::Timeout=300 "${names[@]}" </dev/null 2>&1 | showProgress "installing" ||
+        fail "apt-get could not install${offline:+, because no server of packages answers (is there a network?)}: ${names[*]}"
 }
 
 # The sentence for systems whose packages we do not know.
@@ -123,21 +171,11 @@ requireTools() {
     done
 }
 
-# Copies its input to the log; on a terminal it also shows how far ninja is.
-showProgress() {
-    local line
-    while IFS= read -r line; do
-        printf '%s\n' "$line" >>"$setupLog"
-        [[ -t 2 && $line == \[* ]] && printf '\r\033[Kglim: building %s' "${line%%]*}]" >&2
-    done
-    [[ -t 2 ]] && printf '\r\033[K' >&2
-    return 0
-}
-
 # Prints what cmake is to know of the module for Python, a line each. The module comes with the tests where PyPI can be reached.
 describeModule() {
     local preset=$1 tests=$2
-    if [[ $tests != OFF && $preset != debug && $preset != sanitize* ]] && python3 "$root/tools/python_environment.py" >>"$setupLog" 2>&1; then
+    if [[ $tests != OFF && $preset != debug && $preset != sanitize* ]] &&
+        python3 "$root/tools/python_environment.py" 2>&1 | showProgress "preparing the module for Python"; then
         printf '%s\n' -DGLIM_PYTHON_MODULE=ON "-DPython_EXECUTABLE=$root/build/python/bin/python"
     else
         echo "-DGLIM_PYTHON_MODULE=OFF"
@@ -157,7 +195,7 @@ configure() {
     # CMake refuses a build directory that was moved along with its sources.
     [[ -f $directory/.configured && $(<"$directory/.configured") != *" $root" ]] && fresh=(--fresh)
     (cd "$root" && cmake "${fresh[@]}" --preset "$preset" "-DGLIM_TESTS=${tests/BENCH/ON}" "-DGLIM_BENCH=${tests/#ON/OFF}" "${module[@]}") \
-        >>"$setupLog" 2>&1 || return
+        2>&1 | showProgress "configuring" || return
     printf '%s' "$key" >"$directory/.configured"
 }
 
@@ -187,7 +225,7 @@ build() {
     describeBuild "$preset" >"$stamp.new"
     say "building in $directory"
     configure "$directory" "$preset" "$tests" || fail "cmake could not configure the build$hint"
-    cmake --build "$directory" --target $target 2>&1 | showProgress || fail "the build failed$hint"
+    cmake --build "$directory" --target $target 2>&1 | showProgress "building" || fail "the build failed$hint"
     mv "$stamp.new" "$stamp"
     say "built in $((SECONDS - start)) s"
 }
@@ -198,7 +236,7 @@ ensureBuilt() {
     isBuilt "$1/.built-$4" "$2" && return
     mkdir -p "$1" 2>/dev/null && [[ -w $1 ]] || fail "cannot write to $1, where glim is to be built"
     (
-        flock 9
+        until flock -w 10 9; do say "waiting for another build in $1"; done
         build "$@"
     ) 9>"$1/.lock"
 }
@@ -210,6 +248,7 @@ ensure() {
     $command >/dev/null 2>&1 && return
     isDebian || fail "$missing and this is not Debian 12 or newer: $(namePackages "$@")"
     mkdir -p "$root/build" 2>/dev/null && [[ -w $root/build ]] || fail "cannot write to $root/build, where the log goes"
+    setupLog=$root/build/setup.log
     : >"$setupLog"
     installMissing "$@"
     $command >/dev/null || fail "$missing, although it is installed"
