@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""The workflow for CI that README.md shows: its form, and its steps from the first one that renders, run as a worker's shell does. And the
-project's own workflows: their form, and that pages show the commands of their steps."""
+"""The workflow for CI that README.md shows: its form, and its steps from the first one that renders, run as a worker's shell does. README's
+recipes, each run with fewer pixels, samples and pictures. And the project's own workflows: their form, and that pages show the commands of
+their steps."""
 
 import glob
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -27,6 +29,14 @@ def read_workflow():
     return yaml.safe_load(blocks[0].split("```\n")[0])
 
 
+def fill(folder):
+    """Makes it look like the project's root, with glim as it is built."""
+    os.mkdir(os.path.join(folder, "tools"))
+    os.symlink(GLIM, os.path.join(folder, "tools", "glim"))
+    for name in ("scenes", "tests"):
+        os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
+
+
 class WorkflowTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -38,10 +48,7 @@ class WorkflowTest(unittest.TestCase):
         """The exit codes up to the first that is not 0."""
         codes = []
         with tempfile.TemporaryDirectory() as folder:
-            os.mkdir(os.path.join(folder, "tools"))
-            os.symlink(GLIM, os.path.join(folder, "tools", "glim"))
-            for name in ("scenes", "tests"):
-                os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
+            fill(folder)
             for step in steps:
                 codes.append(subprocess.run(["sh", "-e", "-c", step], cwd=folder, capture_output=True).returncode)
                 if codes[-1] != 0:
@@ -60,6 +67,65 @@ class WorkflowTest(unittest.TestCase):
     def test_another_picture_is_refused(self):
         steps = [step.replace("scenes/cornell.gltf", "scenes/cornell_spheres.gltf") for step in self.renders]
         self.assertEqual(self.run_steps(steps), [0] * (len(steps) - 1) + [4])
+
+
+class RecipesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        fill(self.folder)
+
+    def run_recipe(self, part):
+        """Runs the one that has this part, and returns what it prints, or None if its program is not installed."""
+        section = read(os.path.join(ROOT, "README.md")).split("\n## Recipes\n")[1].split("\n## ")[0]
+        lines = re.search(r"```sh\n(.*?)```", section, re.DOTALL).group(1).splitlines()
+        command, = (line for line in lines if part in line and not line.startswith("#"))
+        for large, small in ((r"--size \d+x\d+", "--size 64x36"), (r"--spp \d+", "--spp 4"), (r"--turntable \d+", "--turntable 3"),
+                             (r"--target-rmse \.5%", "--target-rmse 25%")):
+            command = re.sub(large, small, command)
+        if "glim" in command and "--size" not in command:
+            command += " --size 64x36"
+        program = command.split()[0]
+        if not os.path.exists(os.path.join(self.folder, program)) and not shutil.which(program):
+            return None
+        result = subprocess.run(["bash", "-c", command], cwd=self.folder, stdin=subprocess.DEVNULL, text=True, capture_output=True,
+                                check=False)
+        self.assertEqual(result.returncode, 0, command + "\n" + result.stderr)
+        return result.stdout
+
+    def read_start(self, name):
+        with open(os.path.join(self.folder, name), "rb") as file:
+            return file.read(65536)
+
+    def test_transparent(self):
+        self.run_recipe("--environment-background off")
+        self.assertEqual(self.read_start("product.png")[1:4], b"PNG")
+
+    def test_turntable(self):
+        self.run_recipe("turn.###.png")
+        self.assertEqual(sorted(glob.glob("turn.*", root_dir=self.folder)), ["turn.%03d.png" % i for i in range(3)])
+        if self.run_recipe("ffmpeg") is not None:
+            self.assertEqual(self.read_start("turn.mp4")[4:8], b"ftyp")
+
+    def test_4k(self):
+        self.run_recipe("--size 3840x2160")
+        digest = self.read_start("large.exr")
+        self.run_recipe("--size 3840x2160")
+        self.assertEqual(self.read_start("large.exr"), digest)
+        self.assertEqual(self.read_start("large.png")[1:4], b"PNG")
+
+    def test_data_set(self):
+        self.run_recipe("view.####.exr")
+        for i in range(3):
+            for layer in (b"albedo.R", b"normal.X", b"depth.Z"):
+                self.assertIn(layer, self.read_start("view.%04d.exr" % i))
+            self.assertIn(b"node.X", self.read_start("ids.%04d.exr" % i))
+
+    def test_reference(self):
+        said = self.run_recipe("reference.exr")
+        self.assertLessEqual(float(re.search(r"RMSE ([0-9.]+) %", said).group(1)), 25)
+        self.assertEqual(self.read_start("reference.exr")[:4], b"\x76\x2f\x31\x01")
 
 
 class OwnWorkflowsTest(unittest.TestCase):
