@@ -202,10 +202,13 @@ configure() {
 # What the binary says of itself besides its sources: a new commit is a new build even if no file is newer.
 describeBuild() { echo "$1 $root $(git -c safe.directory="$root" -C "$root" rev-parse HEAD 2>/dev/null || echo unknown)"; }
 
+# isOutdated FILE: a source is newer.
+isOutdated() { [[ -n $(cd "$root" && find CMakeLists.txt CMakePresets.json host python shaders tests tools -newer "$1" -print -quit) ]]; }
+
 # isBuilt STAMP PRESET: no source is newer than the stamp, and it is of the same preset and commit. A few milliseconds.
 isBuilt() {
     [[ -x ${1%/*}/glim && -f $1 && $(<"$1") == "$(describeBuild "$2")" ]] || return
-    [[ -z $(cd "$root" && find CMakeLists.txt CMakePresets.json host python shaders tests tools -newer "$1" -print -quit) ]]
+    ! isOutdated "$1"
 }
 
 # build DIRECTORY PRESET TESTS TARGETS PACKAGE_LINE...: called under the lock. TARGETS: one word or several in one argument.

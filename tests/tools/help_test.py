@@ -92,8 +92,13 @@ class HelpTest(unittest.TestCase):
     def test_glim_that_is_built_prints_its_own(self):
         os.mkdir(os.path.join(self.root, "build"))
         os.symlink(GLIM, os.path.join(self.root, "build", "glim"))
-        result = self.run_tool("glim", "render", "--help")
+        for name in ("CMakeLists.txt", "CMakePresets.json", "python", "shaders", "tests"):
+            os.symlink(os.path.join(ROOT, name), os.path.join(self.root, name))
         built = subprocess.run([GLIM, "render", "--help"], text=True, capture_output=True, check=True).stdout
+        self.assertEqual(self.expect_help("glim", "render", "--help"), built)
+        newer = os.stat(os.path.join(self.root, "build", "glim"), follow_symlinks=False).st_mtime + 10
+        os.utime(os.path.join(self.root, "host", "cli", "render.cpp"), (newer, newer))
+        result = self.run_tool("glim", "render", "--help")
         self.assertEqual((result.returncode, result.stdout), (0, built))
         self.assertEqual(result.stderr, "glim: the sources have changed since this glim was built\n")
 
