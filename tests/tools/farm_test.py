@@ -414,7 +414,8 @@ class TargetTest(FarmCase):
             light["intensity"] = 0
         with open(self.path("black.gltf"), "w", encoding="utf-8") as file:
             json.dump(scene, file)
-        farm = self.start([FARM, self.path("black.gltf"), "-o", self.out, "--spp", "100000", "--size", "8x8", "--target-rmse", "9%"], GLIM)
+        farm = self.start([FARM, self.path("black.gltf"), "-o", self.out, "--spp", "100000", "--size", "8x8", "--target-rmse", "9%",
+                           "--environment", "none"], GLIM)
         self.assertIn("the target is not reached, for the error is unknown", self.finish(farm))
         self.assertEqual(read_film_header(self.out).samples, "0:1024")
         self.assertIsNone(read_film_error(Glim(GLIM, self.folder), self.out))
