@@ -67,7 +67,7 @@ glm::uvec2 sizeOf(const BenchOptions& options, const Camera& camera)
 
 std::string pictureText(const BenchOptions& options)
 {
-    std::string text = "camera=" + options.camera.value_or("0") + describeCamera(options.pose, options.lens);
+    std::string text = "camera=" + options.camera.value_or("0") + describeCamera(options.pose, options.field, options.lens);
     if (options.sceneIndex) {
         text += " scene=" + std::to_string(*options.sceneIndex);
     }

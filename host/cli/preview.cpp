@@ -68,7 +68,7 @@ void addPreview(CommandLine& line)
     });
     command.onRun([options] {
         preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->camera, options->device, options->pose,
-                 options->lens, options->look, options->settings, options->frames, options->script});
+                 options->field, options->lens, options->look, options->settings, options->frames, options->script});
         return ExitCode::Done;
     });
 }

@@ -12,14 +12,17 @@ using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
 std::string pointText(const glm::dvec3& v) { return exactText(v.x) + "," + exactText(v.y) + "," + exactText(v.z); }
 
-OptionValues listOptions(const std::optional<Pose>& pose, const Lens& lens)
+OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens)
 {
     OptionValues words;
     if (pose) {
         words = {{"look-from", pointText(pose->from)}, {"look-at", pointText(pose->at)}, {"look-up", pointText(pose->up)}};
     }
-    if (pose && pose->zoom != 1.0) {
-        words.emplace_back("zoom", exactText(pose->zoom));
+    if (field.degrees) {
+        words.emplace_back("fov", exactText(*field.degrees));
+    }
+    if (const double zoom = (pose ? pose->zoom : 1.0) * field.zoom; zoom != 1.0) {
+        words.emplace_back("zoom", exactText(zoom));
     }
     if (lens.radius > 0.0F) {
         words.emplace_back("lens-radius", exactText(lens.radius));
@@ -39,8 +42,14 @@ std::string join(const OptionValues& words, const char* before, const char* betw
 
 }  // namespace
 
-std::string describeCamera(const std::optional<Pose>& pose, const Lens& lens) { return join(listOptions(pose, lens), " ", "="); }
+std::string describeCamera(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens)
+{
+    return join(listOptions(pose, field, lens), " ", "=");
+}
 
-std::string cameraOptions(const std::optional<Pose>& pose, const Lens& lens) { return join(listOptions(pose, lens), " --", " "); }
+std::string cameraOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens)
+{
+    return join(listOptions(pose, field, lens), " --", " ");
+}
 
 }  // namespace glim

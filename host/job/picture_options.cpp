@@ -24,10 +24,13 @@ void addPose(OptionTable& table, PictureOptions& options)
     from.needs(at);
     at.needs(from);
     addPoint(table, "--look-up", "Direction that points upwards in the picture [0,1,0]", options, &Pose::up).needs(from);
-    addNumber<double>(table, {"--zoom", "Z", "Magnification", 1e-6, 1e6, "1"}, [&options](double zoom) {
-        options.pose = options.pose.value_or(Pose{});
-        options.pose->zoom = zoom;
-    }).needs(from);
+}
+
+void addField(OptionTable& table, FieldOfView& field)
+{
+    addNumber<double>(table, {"--fov", "DEG", "Vertical field of view in degrees", 0.01, 179.0, "the camera's"},
+                      [&field](double degrees) { field.degrees = degrees; });
+    addNumber<double>(table, {"--zoom", "Z", "Magnification", 1e-6, 1e6, "1"}, [&field](double zoom) { field.zoom = zoom; });
 }
 
 void addLens(OptionTable& table, PictureOptions& options)
@@ -103,6 +106,7 @@ void addCamera(OptionTable& table, PictureOptions& options, const std::string& m
     table.beginGroup("Camera");
     table.addText("--camera", "NAME|INDEX", "Camera of the file, or framed: one that sees the whole scene" + more + " [0]", options.camera);
     addPose(table, options);
+    addField(table, options.field);
     addLens(table, options);
 }
 
@@ -209,6 +213,9 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     load.confined = options.confined;
     load.maxTexture = options.maxTexture;
     load.framed = options.camera == "framed";
+    if (options.field.degrees) {
+        load.yfov = static_cast<float>(glm::radians(*options.field.degrees));
+    }
     if (options.size) {
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
     }
@@ -217,7 +224,7 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
 
 Camera makeCamera(const Scene& scene, const PictureOptions& options)
 {
-    const Camera& camera = findCamera(scene, options.camera);
+    const Camera camera = applyField(findCamera(scene, options.camera), options.field);
     return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
 }
 

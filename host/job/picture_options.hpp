@@ -21,6 +21,7 @@ struct PictureOptions {
     std::optional<std::size_t> sceneIndex;
     std::optional<std::string> device, camera;
     std::optional<Pose> pose;
+    FieldOfView field;
     std::optional<EnvironmentChoice> environment;
     std::string variant, animation;
     std::optional<double> at;          // seconds
@@ -58,7 +59,7 @@ void addDevice(OptionTable& table, PictureOptions& options);
 void addCourseRule(OptionTable& table, RenderSettings& settings);
 
 LoadOptions makeLoadOptions(const PictureOptions& options);
-// The camera that the options choose, placed where they say.
+// The camera that the options choose, placed where they say and with the angle that they say. Throws InputError if that cannot be.
 Camera makeCamera(const Scene& scene, const PictureOptions& options);
 // The settings with a size: from the options, or else from the camera.
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);

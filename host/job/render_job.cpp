@@ -38,6 +38,7 @@ void addSequence(OptionTable& table, RenderJob& options)
     for (const Option* chooser : {&turntable, &cameras}) {
         chooser->excludes(table.option("--camera")).excludes(table.option("--look-from"));
     }
+    cameras.excludes(table.option("--fov")).excludes(table.option("--zoom"));  // each camera of the file has its own
 }
 
 void addOutput(OptionTable& table, RenderJob& options)

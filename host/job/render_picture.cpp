@@ -27,7 +27,7 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
 void labelFilm(Film& film, const RenderJob& options)
 {
     film.sceneFile = options.scene.string();
-    film.identity.settings += describeCamera(options.pose, options.lens);
+    film.identity.settings += describeCamera(options.pose, options.field, options.lens);
 }
 
 std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)

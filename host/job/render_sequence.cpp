@@ -216,6 +216,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
     for (const Shot& shot : shots) {
         checkTargets(makeOptions(shot), session_.prepared().scene.files);
+        makeCamera(session_.prepared().scene, makeOptions(shot));  // refuses what does not fit it before the first picture
     }
     if (options_.settings.aov == Aov::Radiance) {
         warnIfNoLights(session_.prepared());

@@ -56,6 +56,7 @@ bool SceneSession::serves(const RenderJob& options) const
     load.edits = mine.edits;
     if (std::ranges::none_of(prepared_.scene.cameras, [](const Camera& camera) { return camera.name == "framed"; })) {
         load.aspectRatio = mine.aspectRatio;
+        load.yfov = mine.yfov;
     }
     const bool sameScene =
         options.scene == options_.scene && load == mine && options.split == options_.split && stamps_ == readStamps(prepared_.scene.files);

@@ -26,9 +26,10 @@ std::vector<Shot> listFrames(const SequenceOptions& sequence, const PictureOptio
 
 std::vector<Shot> listTurntable(const SequenceOptions& sequence, const PictureOptions& picture, const Scene& scene)
 {
-    const glm::vec2 size(picture.size.value_or(defaultSize(scene.cameras.back())));
+    const Camera& framed = scene.cameras.back();
+    const glm::vec2 size(picture.size.value_or(defaultSize(framed)));
     std::vector<Shot> shots;
-    for (const Pose& pose : frameTurntable(scene, size.x / size.y, sequence.turntable)) {
+    for (const Pose& pose : frameTurntable(scene, size.x / size.y, sequence.turntable, framed.yfov)) {
         shots.push_back({static_cast<std::uint32_t>(shots.size()), picture.at, "framed", pose});
     }
     return shots;

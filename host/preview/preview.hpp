@@ -20,6 +20,7 @@ struct PreviewOptions {
     std::optional<glm::uvec2> size;  // pixels; absent: the size that fits the camera
     std::optional<std::string> camera, device;
     std::optional<Pose> pose;
+    FieldOfView field;
     Lens lens;
     LookOptions look;
     RenderSettings settings;

@@ -125,10 +125,11 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared.scene, options_.camera);
         sayIfCameraIsNumber(prepared.scene, options_.camera);
+        applyField(chosen, options_.field);  // refuses an angle for an orthographic camera
         if (options_.pose) {
             placeCamera(chosen, *options_.pose, prepared.scene.origin);  // refuses a pose without direction
         }
-        viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared.scene.cameras.data()), options_.pose);
+        viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared.scene.cameras.data()), options_.pose, options_.field);
         if (!options_.size) {
             window_.setSize(defaultSize(chosen));
         }
@@ -456,9 +457,9 @@ void Session::clickAt(const glm::dvec2& position)
 
 void Session::printCamera()
 {
-    const std::string options = "--camera " + std::to_string(viewpoint_->index()) + cameraOptions(viewpoint_->moved(), options_.lens) +
-                                " --size " + std::to_string(display_.width()) + "x" + std::to_string(display_.height()) +
-                                editOptions(joinEdits(options_.load.edits, edits_));
+    const std::string options =
+        "--camera " + std::to_string(viewpoint_->index()) + cameraOptions(viewpoint_->moved(), options_.field, options_.lens) + " --size " +
+        std::to_string(display_.width()) + "x" + std::to_string(display_.height()) + editOptions(joinEdits(options_.load.edits, edits_));
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
 }
@@ -467,7 +468,7 @@ void Session::writePictures()
 {
     Film film = pictures_.shown().renderer().film();
     film.sceneFile = options_.scene.string();
-    film.identity.settings += describeCamera(viewpoint_->moved(), options_.lens);
+    film.identity.settings += describeCamera(viewpoint_->moved(), options_.field, options_.lens);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }

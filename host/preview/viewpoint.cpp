@@ -25,6 +25,10 @@ double computeHalfHeight(const Camera& camera, const Pose& pose)
 void Viewpoint::enter(const Scene& scene)
 {
     cameras_ = scene.cameras;
+    for (Camera& camera : cameras_) {
+        const bool hasAngle = camera.kind == Camera::Kind::Perspective;
+        camera = applyField(camera, {hasAngle ? field_.degrees : std::nullopt, field_.zoom});
+    }
     origin_ = scene.origin;
     bounds_ = computeBoundingSphere(scene);
     index_ = std::min(index_, cameras_.size() - 1);

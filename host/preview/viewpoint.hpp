@@ -15,11 +15,13 @@ class Viewpoint {
 public:
     using Time = Clock::time_point;
 
-    // Starts with the file's camera `index`, or with the camera placed by `pose`.
-    Viewpoint(std::size_t index, const std::optional<Pose>& pose)
+    // Starts with the file's camera `index`, or with the camera placed by `pose`. All cameras have `field`, but for the angle of
+    // orthographic ones.
+    Viewpoint(std::size_t index, const std::optional<Pose>& pose, const FieldOfView& field = {})
         : index_(index),
           firstIndex_(index),
-          pose_(pose)
+          pose_(pose),
+          field_(field)
     {}
 
     // Takes the cameras of `scene`, also when it has been loaded again. A moved camera stays where it is.
@@ -58,6 +60,7 @@ private:
     BoundingSphere bounds_;
     std::size_t index_, firstIndex_;
     std::optional<Pose> pose_;  // absent: the file's camera was not moved
+    FieldOfView field_;
     bool moved_ = false;
     std::set<char> held_;
     Time flown_;

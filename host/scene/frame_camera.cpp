@@ -84,7 +84,7 @@ glm::dvec3 rotateAboutY(const glm::dvec3& v, double angle)
 
 }  // namespace
 
-Camera frameCamera(const Scene& scene, float aspectRatio)
+Camera frameCamera(const Scene& scene, float aspectRatio, float yfov)
 {
     const WorldBox box = computeWorldBox(scene);
     const glm::dvec3 center = centerOf(box);
@@ -97,6 +97,7 @@ Camera frameCamera(const Scene& scene, float aspectRatio)
     Camera camera;
     camera.name = "framed";
     camera.aspectRatio = aspectRatio;
+    camera.yfov = yfov;
     const Framing framing = frame(corners, static_cast<double>(camera.yfov), static_cast<double>(aspectRatio));
     camera.position = center + framing.position;
     camera.forward = -framing.backward;
@@ -105,7 +106,7 @@ Camera frameCamera(const Scene& scene, float aspectRatio)
     return camera;
 }
 
-std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count)
+std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uint32_t count, float yfov)
 {
     constexpr int kSides = 64;  // of the prism around the cylinder in which the scene rotates
     constexpr double kTwoPi = 6.283185307179586;
@@ -118,7 +119,7 @@ std::vector<Pose> frameTurntable(const Scene& scene, float aspectRatio, std::uin
         corners.push_back(side + up);
         corners.push_back(side - up);
     }
-    const Framing framing = frame(corners, static_cast<double>(Camera().yfov), static_cast<double>(aspectRatio));
+    const Framing framing = frame(corners, static_cast<double>(yfov), static_cast<double>(aspectRatio));
     std::vector<Pose> poses;
     for (std::uint32_t i = 0; i < count; ++i) {
         const double angle = kTwoPi * i / count;

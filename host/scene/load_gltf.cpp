@@ -329,13 +329,13 @@ Framed FilePart::frameRestPose()
     ReadMeshes unused;
     Warnings unheard;
     readGeometry(file_, placeNodes(file_, options_, unheard), rest, unused, unheard);
-    return {frameCamera(rest, options_.aspectRatio), rest.origin};
+    return {frameCamera(rest, options_.aspectRatio, options_.yfov), rest.origin};
 }
 
 Camera FilePart::frame(const Scene& scene)
 {
     if (!posed_) {
-        return frameCamera(scene, options_.aspectRatio);
+        return frameCamera(scene, options_.aspectRatio, options_.yfov);
     }
     framed_ = framed_ ? framed_ : frameRestPose();
     return placeFramed(*framed_, scene.origin);

@@ -50,6 +50,7 @@ struct LoadOptions {
     std::optional<double> at;                  // seconds into the animation; if absent the file's rest pose
     std::string animation;                     // name or index; empty: the first
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera
+    float yfov = Camera().yfov;                // of the framed camera
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
 
     std::vector<Edit> edits;          // of the file, one after the other

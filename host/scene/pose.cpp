@@ -1,10 +1,42 @@
 #include "host/scene/pose.hpp"
 
 #include "host/error.hpp"
+#include "host/text.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace glim {
+namespace {
+
+void magnify(Camera& camera, double zoom)
+{
+    if (zoom != 1.0) {  // at 1 no bit may change
+        camera.yfov = static_cast<float>(2.0 * std::atan(std::tan(0.5 * static_cast<double>(camera.yfov)) / zoom));
+        if (camera.kind == Camera::Kind::Perspective && static_cast<double>(camera.yfov) >= std::numbers::pi) {
+            throw InputError(MessageId::OutOfRange, {part::place("--zoom"), ": ", part::value(exactText(zoom)),
+                                                     ": the camera would see 180 degrees; expected ", part::expected("more"), "."});
+        }
+    }
+    camera.halfWidth = static_cast<float>(static_cast<double>(camera.halfWidth) / zoom);
+    camera.halfHeight = static_cast<float>(static_cast<double>(camera.halfHeight) / zoom);
+}
+
+}  // namespace
+
+Camera applyField(const Camera& camera, const FieldOfView& field)
+{
+    Camera changed = camera;
+    if (field.degrees) {
+        if (camera.kind == Camera::Kind::Orthographic) {
+            throw InputError(MessageId::Conflict, {part::place("--fov"), ": camera ", part::quoted(camera.name),
+                                                   " is orthographic; expected ", part::expected("--zoom"), " instead."});
+        }
+        changed.yfov = static_cast<float>(glm::radians(*field.degrees));
+    }
+    magnify(changed, field.zoom);
+    return changed;
+}
 
 Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sceneOrigin)
 {
@@ -24,11 +56,7 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     placed.forward = glm::vec3(forward);
     placed.right = glm::vec3(right);
     placed.up = glm::vec3(glm::cross(right, forward));
-    if (pose.zoom != 1.0) {  // at 1 no bit may change
-        placed.yfov = static_cast<float>(2.0 * std::atan(std::tan(0.5 * static_cast<double>(camera.yfov)) / pose.zoom));
-    }
-    placed.halfWidth = static_cast<float>(static_cast<double>(camera.halfWidth) / pose.zoom);
-    placed.halfHeight = static_cast<float>(static_cast<double>(camera.halfHeight) / pose.zoom);
+    magnify(placed, pose.zoom);
     return placed;
 }
 

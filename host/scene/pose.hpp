@@ -3,6 +3,8 @@
 
 #include "host/scene/scene.hpp"
 
+#include <optional>
+
 namespace glim {
 
 // In the file's world coordinates, metres.
@@ -12,6 +14,15 @@ struct Pose {
     glm::dvec3 up{0.0, 1.0, 0.0};  // points upwards in the picture; need not be perpendicular or of unit length
     double zoom = 1.0;             // magnification in the picture
 };
+
+// How much a camera sees from where it is.
+struct FieldOfView {
+    std::optional<double> degrees;  // vertical, of a perspective camera; absent: the camera's own
+    double zoom = 1.0;              // magnification in the picture, of this angle
+};
+
+// Throws InputError if there is an angle for an orthographic camera, or if the zoom opens the angle to 180 degrees.
+Camera applyField(const Camera& camera, const FieldOfView& field);
 
 // Returns `camera` in another pose. Throws InputError if the pose defines no view direction, or no up direction.
 Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sceneOrigin);

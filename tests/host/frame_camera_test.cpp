@@ -45,8 +45,10 @@ TEST(FrameCamera, CentresAndFillsWhateverTheShape)
             }
         }
         const Scene scene = makeTestScene(box);
-        for (const float aspectRatio : {0.25F, 1.0F, 1.7F, 5.0F}) {
-            const Camera camera = frameCamera(scene, aspectRatio);
+        for (const auto& [aspectRatio, yfov] :
+             {std::pair(0.25F, 0.7F), {1.0F, 0.7F}, {1.7F, 0.7F}, {5.0F, 0.7F}, {1.7F, 0.1F}, {0.6F, 2.0F}}) {
+            const Camera camera = frameCamera(scene, aspectRatio, yfov);
+            EXPECT_EQ(camera.yfov, yfov);
             const Extent extent = seen(camera, 2.0F * half, 4.0F * half, static_cast<double>(aspectRatio));
             const double fills = std::max(extent.high.x, extent.high.y);
             EXPECT_NEAR(extent.high.x, -extent.low.x, 1e-5) << half.x << ' ' << half.y << ' ' << half.z << ", " << aspectRatio;

@@ -160,6 +160,8 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
         {gems, "--size", "16x12", "--spp", "8", "--bounces", "2"},
         {gems, "--size", "16x12", "--spp", "8", "--camera", "framed"},
         {gems, "--size", "12x16", "--spp", "8", "--camera", "framed"},
+        {gems, "--size", "12x16", "--spp", "8", "--camera", "framed", "--fov", "15"},
+        {gems, "--size", "12x16", "--spp", "8", "--fov", "15", "--zoom", "1.5"},
         {gems, "--size", "16x12", "--spp", "80", "--adaptive", "neighbours"},
         {gems, "--size", "16x12", "--spp", "128", "--adaptive", "neighbours", "--seed", "2"},
         {spheres, "--size", "16x12", "--spp", "8"},
@@ -182,6 +184,8 @@ TEST_F(ServeTest, OptionsAreValues)
                                       {"spp", 70},
                                       {"look_from", from},
                                       {"look-at", at},
+                                      {"fov", 30.5},
+                                      {"zoom", 2},
                                       {"environment_background", false},
                                       {"confine", true},
                                       {"denoise", false},
@@ -191,7 +195,7 @@ TEST_F(ServeTest, OptionsAreValues)
     EXPECT_EQ(server_.receive().dump(), R"({"id":1,"code":0,"error":null,"reason":null})");
     EXPECT_EQ(computeDigest(readFilm(film)),
               digestAlone({sceneFile("cornell.gltf"), "--size", "16x12", "--spp", "70", "--look-from", "0,1,3", "--look-at", "0,1,0",
-                           "--environment-background", "off", "--target-rmse", "50%"}));
+                           "--fov", "30.5", "--zoom", "2", "--environment-background", "off", "--target-rmse", "50%"}));
 }
 
 // Back and forth: what was set before does not stay.

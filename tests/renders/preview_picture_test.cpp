@@ -52,6 +52,8 @@ TEST_F(PreviewTest, TakesTheOptionsOfARender)
         "--spp 4 --seed 7 --sampler independent --bounces 2 --direct lights --light-samples 2 --roulette fixed:0.8",
         "--adaptive course --tolerance 0.2 --batch 8 --max-spp 64",
         "--samples 32:40 --clamp-indirect 1 --paths indirect --accelerator none --intersector moller-trumbore",
+        "--spp 2 --fov 50 --zoom 0.75",
+        "--spp 2 --camera framed --fov 25",
         "--spp 3 --look-from 0,1.2,3 --look-at 0,1,0 --zoom 1.5 --lens-radius 0.05 --focal-distance 3 --environment 1,0.5,0.25",
     };
     for (const char* options : kOptions) {
