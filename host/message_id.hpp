@@ -103,6 +103,7 @@
     ID(CameraChosen)                                                      \
     ID(ToneChosen)                                                        \
     ID(ExposureChosen)                                                    \
+    ID(AlphaLost)                                                         \
     ID(ScheduleChosen)                                                    \
     ID(ScheduleForgotten)                                                 \
     ID(BegunAnew)                                                         \

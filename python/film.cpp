@@ -108,6 +108,7 @@ Film shrunk(const Film& film, std::uint32_t most)
     small.width = std::max(1U, film.width / side);
     small.height = std::max(1U, film.height / side);
     small.identity = film.identity;
+    small.showsBackground = film.showsBackground;
     small.pixels.resize(std::size_t{small.width} * small.height);
     std::vector<std::uint32_t> counts(small.pixels.size());
     for (std::uint32_t y = 0; y < film.height; ++y) {

@@ -1,4 +1,4 @@
-// Pictures for people to look at: 8 bits a channel, opaque, sRGB.
+// Pictures for people to look at: 8 bits a channel, sRGB.
 #pragma once
 
 #include "host/image/png.hpp"
@@ -23,13 +23,18 @@ constexpr std::uint32_t longestSide(PictureKind kind)
     return kind == PictureKind::Jpeg ? 65500 : kind == PictureKind::Webp ? 16383 : 0x7fffffff;
 }
 
+constexpr bool hasAlpha(PictureKind kind) { return kind != PictureKind::Jpeg; }
+
 // Writes sRGB bytes to a file of the kind that its name says. Throws InputError if it cannot be, and then nothing is written.
 void writePicture(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
+// The same for kinds that have alpha.
+void writePicture(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgba8>& pixels);
 
 // As writePng. Quality 95, colours in full resolution (4:4:4).
 void writeJpeg(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
 
 // As writePng, without loss.
 void writeWebp(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels);
+void writeWebp(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgba8>& pixels);
 
 }  // namespace glim

@@ -51,17 +51,18 @@ void pngWarn(png_structp, png_const_charp) {}
 
 struct Rows {
     std::uint32_t width, height;
-    const Rgb8* first;
+    std::size_t channels;
+    const std::uint8_t* first;
 };
 
 void writeRows(png_structp png, png_infop info, const Rows& rows)
 {
-    png_set_IHDR(png, info, rows.width, rows.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, rows.width, rows.height, 8, rows.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     for (std::size_t y = 0; y < rows.height; ++y) {
-        png_write_row(png, rows.first[y * rows.width].data());
+        png_write_row(png, rows.first + y * rows.width * rows.channels);
     }
     png_write_end(png, info);
 }
@@ -86,6 +87,16 @@ bool encodePng(PngSink& sink, const Rows& rows)
     return true;
 }
 
+void writeRows(const std::filesystem::path& path, const Rows& rows)
+{
+    AtomicFile file(path);
+    PngSink sink{file, path.string()};
+    if (!encodePng(sink, rows)) {
+        throw InputError(*sink.error);
+    }
+    file.commit();
+}
+
 }  // namespace
 
 std::uint8_t srgbByte(double linear)
@@ -103,12 +114,12 @@ Rgb8 roundToBytes(const glm::dvec3& color)
 
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgb8>& pixels)
 {
-    AtomicFile file(path);
-    PngSink sink{file, path.string()};
-    if (!encodePng(sink, {width, height, pixels.data()})) {
-        throw InputError(*sink.error);
-    }
-    file.commit();
+    writeRows(path, {width, height, 3, pixels.front().data()});
+}
+
+void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height, const std::vector<Rgba8>& pixels)
+{
+    writeRows(path, {width, height, 4, pixels.front().data()});
 }
 
 }  // namespace glim

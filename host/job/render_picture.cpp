@@ -27,6 +27,7 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
 void labelFilm(Film& film, const RenderJob& options)
 {
     film.sceneFile = options.scene.string();
+    film.showsBackground = options.environmentBackground;
     film.identity.settings += describeCamera(options.pose, options.field, options.lens);
 }
 

@@ -302,6 +302,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
         }
         return std::nullopt;
     }
+    stored.film.showsBackground = options.environmentBackground;  // which films of earlier builds do not say
     const std::optional<Message> difference = findOther(stored.film, session_, frame, options);
     if (difference && options.checkpoint.resume) {
         throw InputError(Message(*difference, {part::file(options.mainFile()), ": cannot be resumed: ", difference->sentence, "."}));

@@ -468,6 +468,7 @@ void Session::writePictures()
 {
     Film film = pictures_.shown().renderer().film();
     film.sceneFile = options_.scene.string();
+    film.showsBackground = options_.load.environmentBackground;
     film.identity.settings += describeCamera(viewpoint_->moved(), options_.field, options_.lens);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);

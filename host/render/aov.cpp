@@ -88,4 +88,20 @@ Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range,
                 {look.exposure, static_cast<Tone>(toneOfPixel(pixel.mean, pixel.albedo, static_cast<std::uint32_t>(look.tone)))});
 }
 
+Rgba8 displaySurfaces(const PixelMoments& pixel, Aov aov, const DisplayRange& range, const Look& look)
+{
+    if (!isFinite(pixel.mean)) {
+        return {kMagenta[0], kMagenta[1], kMagenta[2], 255};
+    }
+    const auto alpha = static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(pixel.alpha, 0.0F, 1.0F)));
+    if (alpha == 0) {
+        return {};
+    }
+    PixelMoments surfaces = pixel;
+    surfaces.mean /= pixel.alpha;
+    surfaces.albedo /= pixel.alpha;
+    const Rgb8 color = displayColor(surfaces, aov, range, look);
+    return {color[0], color[1], color[2], alpha};
+}
+
 }  // namespace glim

@@ -31,4 +31,7 @@ DisplayRange computeRange(const Film& film, Aov aov);
 // Returns kMagenta if the mean is not finite.
 Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range, const Look& look);
 
+// The same of the surfaces in the pixel alone, with their coverage as alpha. Transparent pixels are black.
+Rgba8 displaySurfaces(const PixelMoments& pixel, Aov aov, const DisplayRange& range, const Look& look);
+
 }  // namespace glim

@@ -39,10 +39,11 @@ struct Film {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint
     bool complete = true;                                               // each pixel has all of sampleRanges or, if adaptive, its own share
     FilmIdentity identity;
-    double seconds = 0.0;    // spent sampling
-    std::string device;      // names the device and driver
-    std::string arithmetic;  // fingerprints of how all devices round, with spaces between them
-    std::string sceneFile;   // as given
+    double seconds = 0.0;         // spent sampling
+    std::string device;           // names the device and driver
+    std::string arithmetic;       // fingerprints of how all devices round, with spaces between them
+    std::string sceneFile;        // as given
+    bool showsBackground = true;  // false: pictures are transparent where no surface is
 };
 
 // Of what makes the film: its identity, sample ranges and moments, not when and where it was rendered.

@@ -29,6 +29,7 @@ bool hasSplats(double format) { return format == kUnsealedWithSplats || format =
 
 constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenEXR, for as many cores
 
+constexpr const char* kBackground = "glim:background";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 
 // Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
@@ -284,6 +285,9 @@ Image headerOf(const Film& film)
                         {"glim:digest", computeDigest(film)},
                         {"glim:pixels", computePixelsDigest(film)},
                         {kHeaderDigest, ""}};  // which ExrWriter computes
+    if (!film.showsBackground) {
+        image.attributes[kBackground] = "off";
+    }
     return image;
 }
 
@@ -412,6 +416,7 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     film.sceneFile = attribute<std::string>(path, image, "glim:sceneFile");
     film.identity.kernels = textIfPresent(image, "glim:kernels");
     film.arithmetic = textIfPresent(image, "glim:arithmetic");
+    film.showsBackground = textIfPresent(image, kBackground) != "off";
     return film;
 }
 

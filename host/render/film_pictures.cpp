@@ -10,6 +10,21 @@
 #include <map>
 
 namespace glim {
+namespace {
+
+template <class Color>
+std::vector<Color> draw(const Film& film, Aov aov, const Look& look,
+                        Color (*display)(const PixelMoments&, Aov, const DisplayRange&, const Look&))
+{
+    const DisplayRange range = computeRange(film, aov);
+    std::vector<Color> colors;
+    for (const PixelMoments& pixel : shownPixels(film)) {
+        colors.push_back(display(pixel, aov, range, look));
+    }
+    return colors;
+}
+
+}  // namespace
 
 Aov getAov(const Film& film)
 {
@@ -21,12 +36,19 @@ Aov getAov(const Film& film)
 
 void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look)
 {
-    const DisplayRange range = computeRange(film, aov);
-    std::vector<Rgb8> colors;
-    for (const PixelMoments& pixel : shownPixels(film)) {
-        colors.push_back(displayColor(pixel, aov, range, look));
+    const bool showsSurfaces = aov != Aov::SampleCount && aov != Aov::BvhSteps;
+    const std::optional<PictureKind> kind = getPictureKind(path);
+    if (film.showsBackground || !showsSurfaces) {
+        writePicture(path, film.width, film.height, draw(film, aov, look, displayColor));
+    } else if (!kind || hasAlpha(*kind)) {
+        writePicture(path, film.width, film.height, draw(film, aov, look, displaySurfaces));
+    } else {
+        writePicture(path, film.width, film.height, draw(film, aov, look, displayColor));
+        if (std::ranges::any_of(film.pixels, [](const PixelMoments& pixel) { return pixel.alpha < 1.0F; })) {
+            say(MessageId::AlphaLost, {part::file(path), " is a JPEG, which has no alpha, so its background is black; ",
+                                       part::expected("a PNG or WebP"), " is transparent there"});
+        }
     }
-    writePicture(path, film.width, film.height, colors);
 }
 
 double chooseExposure(const Film& film, Aov aov)

@@ -121,6 +121,7 @@ void addOrigin(Film& film, const Film& next)
 {
     film.complete = film.complete && next.complete;
     film.seconds += next.seconds;
+    film.showsBackground = film.showsBackground && next.showsBackground;
     if (film.device.find(next.device) == std::string::npos) {
         film.device += "; " + next.device;
     }

@@ -32,6 +32,7 @@ TEST(FilmFile, ReadsBackEveryBit)
     film.pixels[5].blocks = (1U << 24) + 1;
     film.seconds = 1.0 / 3.0;
     film.complete = false;
+    film.showsBackground = false;
     writeFilm(folder / "a.exr", film);
     const Film back = readFilm(folder / "a.exr");
     EXPECT_EQ(back.width, film.width);
@@ -43,6 +44,7 @@ TEST(FilmFile, ReadsBackEveryBit)
     EXPECT_EQ(back.identity.seed, film.identity.seed);
     EXPECT_EQ(back.seconds, film.seconds);
     EXPECT_FALSE(back.complete);
+    EXPECT_FALSE(back.showsBackground);
     EXPECT_EQ(back.device, film.device);
     EXPECT_EQ(back.sceneFile, film.sceneFile);
     const Film header = readFilmHeader(folder / "a.exr");

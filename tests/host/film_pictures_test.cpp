@@ -1,5 +1,6 @@
 // What the picture of each AOV and of the samples per pixel looks like.
 #include "host/render/film_pictures.hpp"
+#include "host/image/decode_image.hpp"
 #include "host/render/settings.hpp"
 #include "shaders/shared/display_colors.h"
 #include "tests/support/decode_png.hpp"
@@ -176,6 +177,55 @@ TEST(FilmPictures, RatesGoFromTheFewestToTheMost)
     EXPECT_EQ(ratesPicture({64, 64}), (std::vector<Rgb>(2, kBlue)));
     EXPECT_EQ(ratesPicture({0, 1}), (std::vector<Rgb>{kBlue, kRed}));
     EXPECT_EQ(ratesPicture({0, 4294967295U}), (std::vector<Rgb>{kBlue, kRed}));
+}
+
+DecodedImage drawHidden(const char* name, Aov aov, const std::vector<PixelMoments>& pixels, const Look& look = {})
+{
+    const ScratchFolder folder;
+    Film film = makeFilm(aov, pixels);
+    film.showsBackground = false;
+    writeFilmPicture(folder / name, film, aov, look);
+    const std::string bytes = test::readFileBytes(folder / name);
+    return decodeImage({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+}
+
+using PixelBytes = std::vector<std::uint8_t>;
+
+// Colours are those of the surfaces: premultiplied radiance, albedo and normals are divided by alpha.
+TEST(FilmPictures, HaveAlphaWhereTheBackgroundIsHidden)
+{
+    const glm::vec3 grey(0.5F);
+    const std::uint8_t half = srgbByte(0.5);
+    const std::vector<PixelMoments> pixels{pixel(grey), pixel(0.25F * grey, 0.25F), pixel(glm::vec3(0), 0), pixel(1e-3F * grey, 1e-3F),
+                                           pixel(glm::vec3(kNanFloat), 0.5F)};
+    const PixelBytes expected{half, half, half, 255, half, half, half, 64, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 255, 255};
+    for (const char* name : {"a.png", "a.webp"}) {
+        EXPECT_EQ(drawHidden(name, Aov::Radiance, pixels).rgba8, expected) << name;
+        EXPECT_EQ(drawHidden(name, Aov::Albedo, pixels).rgba8, expected) << name;
+    }
+    const Rgb8 toned = displayColor(pixel({2, 1, 0.5F}), Aov::Radiance, {}, {1.0, Tone::Agx});
+    PixelMoments lit = pixel({1, 0.5F, 0.25F}, 0.5F), whole = pixel({2, 1, 0.5F});
+    lit.albedo = whole.albedo = glm::vec3(0.1F);
+    const Rgb8 shown = displayColor(whole, Aov::Radiance, {}, {1.0, Tone::Agx});
+    EXPECT_NE(shown, toned) << "the tone is of lit surfaces";
+    EXPECT_EQ(drawHidden("a.png", Aov::Radiance, {lit}, {1.0, Tone::Agx}).rgba8, (PixelBytes{shown[0], shown[1], shown[2], 128}));
+    PixelMoments edge = pixel(glm::vec3(0.3F), 0.5F);
+    edge.normal = {0.5F, 0, 0};
+    EXPECT_EQ(drawHidden("a.png", Aov::Normal, {edge, pixel(glm::vec3(0), 0)}).rgba8, (PixelBytes{255, 128, 128, 128, 0, 0, 0, 0}));
+}
+
+TEST(FilmPictures, CountsAndJpegsAreOpaque)
+{
+    const std::vector<PixelMoments> pixels{pixel({0.5F, 0.25F, 0}, 0.5F), pixel(glm::vec3(0), 0)};
+    for (const Aov aov : {Aov::SampleCount, Aov::BvhSteps}) {
+        EXPECT_FALSE(drawHidden("a.png", aov, pixels).hasAlpha);
+    }
+    const ScratchFolder folder;
+    Film film = makeFilm(Aov::Radiance, pixels);
+    writeFilmPicture(folder / "shown.jpg", film, Aov::Radiance);
+    film.showsBackground = false;
+    writeFilmPicture(folder / "hidden.jpg", film, Aov::Radiance);
+    EXPECT_EQ(test::readFileBytes(folder / "hidden.jpg"), test::readFileBytes(folder / "shown.jpg"));
 }
 
 TEST(FilmPictures, SettingsAreFoundInTheirDescription)

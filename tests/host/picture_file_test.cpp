@@ -79,6 +79,25 @@ TEST(PictureFile, HoldsThePicture)
     EXPECT_EQ(folder.entries(), 4);
 }
 
+// Also the colours of transparent pixels.
+TEST(PictureFile, HoldsAlphaWithoutLoss)
+{
+    const ScratchFolder folder;
+    std::vector<Rgba8> pixels;
+    std::vector<std::uint8_t> bytes;
+    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
+        const auto part = [i](std::uint32_t factor) { return static_cast<std::uint8_t>(i * factor); };
+        pixels.push_back({part(1), part(7), part(31), i % 3 == 0 ? std::uint8_t{0} : part(5)});
+        bytes.insert(bytes.end(), pixels.back().begin(), pixels.back().end());
+    }
+    for (const char* name : {"a.png", "a.webp"}) {
+        writePicture(folder / name, kWidth, kHeight, pixels);
+        const DecodedImage image = decoded(folder / name);
+        EXPECT_TRUE(image.hasAlpha);
+        EXPECT_EQ(image.rgba8, bytes) << name;
+    }
+}
+
 TEST(PictureFile, JpegIsOfTheStatedQuality)
 {
     const ScratchFolder folder;

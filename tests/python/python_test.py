@@ -172,6 +172,24 @@ class FilmTest(PythonCase):
         self.assertIn("1100x10, 1 samples per pixel", repr(film))
         self.assertRegex(repr(glim.render(GEMS, size=(8, 8), spp=80)), r"estimated RMSE [0-9.]+ % of the mean \[")
 
+    def test_pictures_without_the_background(self):
+        options = {"size": (24, 20), "spp": 16, "environment": (1, 1, 1), "environment_background": False, "fov": 60}
+        film = glim.render(GEMS, **options)
+        film.save(self.path("film.exr"))
+        subprocess.run([GLIM, "render", GEMS, "--size", "24x20", "--spp", "16", "--environment", "1,1,1", "--environment-background", "off",
+                        "--fov", "60", "-o", self.path("cli.exr"), "--image", self.path("cli.png"), "--image", self.path("cli.webp")],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.assertEqual(film.digest, glim.read(self.path("cli.exr")).digest)
+        self.assertLess(film.alpha.min(), film.alpha.max())
+        for kind in ("png", "webp"):
+            with open(self.path("cli." + kind), "rb") as file:
+                expected = file.read()
+            for saved in (film, glim.read(self.path("film.exr")), glim.merge([film])):
+                saved.save(self.path("film." + kind))
+                with open(self.path("film." + kind), "rb") as file:
+                    self.assertEqual(file.read(), expected)
+        self.assertEqual(film._repr_png_()[24:26], bytes((8, 6)), "8 bits, RGBA")
+
     def test_unknown_error(self):
         """Of a black picture and of radiance whose squares float32 does not hold: it meets no target, and ends the render."""
         with open(scene("light_point"), encoding="utf-8") as file:

@@ -14,7 +14,8 @@
 namespace glim::test {
 namespace {
 
-constexpr double kRadius = 1.0, kDistance = 5.0, kYfov = 0.6, kYmag = 2.5, kHalf = 24.0;  // pixels: half of the picture's height
+constexpr double kBallRadius = 1.0, kBallDistance = 5.0, kFileYfov = 0.6, kFileYmag = 2.5,
+                 kHalfPixels = 24.0;  // pixels: half of the picture's height
 
 class FieldTest : public ::testing::Test {
 protected:
@@ -23,14 +24,14 @@ protected:
     void writeScene(const char* name, bool withCameras) const
     {
         GltfBuilder builder;
-        builder.addNode({{"extras", {{"sphere", {{"radius", kRadius}}}}}});
+        builder.addNode({{"extras", {{"sphere", {{"radius", kBallRadius}}}}}});
         if (withCameras) {
-            builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", kYfov}, {"znear", 0.1}}}});
+            builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", kFileYfov}, {"znear", 0.1}}}});
             builder.append("cameras", {{"name", "plan"},
                                        {"type", "orthographic"},
-                                       {"orthographic", {{"xmag", kYmag}, {"ymag", kYmag}, {"znear", 0.1}, {"zfar", 10}}}});
-            builder.addNode({{"camera", 0}, {"translation", {0, 0, kDistance}}});
-            builder.addNode({{"camera", 1}, {"translation", {0, 0, kDistance}}});
+                                       {"orthographic", {{"xmag", kFileYmag}, {"ymag", kFileYmag}, {"znear", 0.1}, {"zfar", 10}}}});
+            builder.addNode({{"camera", 0}, {"translation", {0, 0, kBallDistance}}});
+            builder.addNode({{"camera", 1}, {"translation", {0, 0, kBallDistance}}});
         }
         writeText(folder_ / name, builder.toGltf());
     }
@@ -64,7 +65,7 @@ protected:
     // Of its outline, which is nearer than its middle, at a distance in a picture of this angle.
     static double outline(double distance, double angle)
     {
-        return kHalf * kRadius / std::sqrt(distance * distance - kRadius * kRadius) / std::tan(0.5 * angle);
+        return kHalfPixels * kBallRadius / std::sqrt(distance * distance - kBallRadius * kBallRadius) / std::tan(0.5 * angle);
     }
 
     ScratchFolder folder_;
@@ -74,20 +75,20 @@ double inRadians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 TEST_F(FieldTest, AreOfTheCameraInUse)
 {
-    expectRadius(render({}), outline(kDistance, kYfov));
-    expectRadius(render({"--fov", "60"}), outline(kDistance, inRadians(60)));
-    expectRadius(render({"--zoom", "0.5"}), 0.5 * outline(kDistance, kYfov));
-    expectRadius(render({"--fov", "60", "--zoom", "1.5"}), 1.5 * outline(kDistance, inRadians(60)));
+    expectRadius(render({}), outline(kBallDistance, kFileYfov));
+    expectRadius(render({"--fov", "60"}), outline(kBallDistance, inRadians(60)));
+    expectRadius(render({"--zoom", "0.5"}), 0.5 * outline(kBallDistance, kFileYfov));
+    expectRadius(render({"--fov", "60", "--zoom", "1.5"}), 1.5 * outline(kBallDistance, inRadians(60)));
     const std::vector<std::string> placed{"--look-from", "0,8,0", "--look-at", "0,0,0", "--look-up", "1,0,0"};
     for (const auto& [words, radius] : {std::pair(std::vector<std::string>{"--fov", "20"}, outline(8, inRadians(20))),
-                                        {{"--zoom", "2"}, 2.0 * outline(8, kYfov)},
+                                        {{"--zoom", "2"}, 2.0 * outline(8, kFileYfov)},
                                         {{"--fov", "20", "--zoom", "0.5"}, 0.5 * outline(8, inRadians(20))}}) {
         std::vector<std::string> all = placed;
         all.insert(all.end(), words.begin(), words.end());
         expectRadius(render(all), radius);
     }
-    expectRadius(render({"--camera", "plan"}), kHalf * kRadius / kYmag);
-    expectRadius(render({"--camera", "plan", "--zoom", "2"}), 2.0 * kHalf * kRadius / kYmag);
+    expectRadius(render({"--camera", "plan"}), kHalfPixels * kBallRadius / kFileYmag);
+    expectRadius(render({"--camera", "plan", "--zoom", "2"}), 2.0 * kHalfPixels * kBallRadius / kFileYmag);
 }
 
 // From another distance: the ball is as large in the picture, and nothing of it is cut.
@@ -146,8 +147,8 @@ TEST_F(FieldTest, EachPictureOfATurntableHasThem)
         EXPECT_EQ(computeDigest(again), computeDigest(film)) << name;
     }
     ASSERT_EQ(run("ball.gltf", {"--camera", "all", "--zoom", "1.25", "-o", "c#.exr"}).exitCode, 0);
-    expectRadius(readFilm(folder_ / "c0.exr"), 1.25 * outline(kDistance, kYfov));
-    expectRadius(readFilm(folder_ / "c1.exr"), 1.25 * kHalf * kRadius / kYmag);
+    expectRadius(readFilm(folder_ / "c0.exr"), 1.25 * outline(kBallDistance, kFileYfov));
+    expectRadius(readFilm(folder_ / "c1.exr"), 1.25 * kHalfPixels * kBallRadius / kFileYmag);
 }
 
 TEST_F(FieldTest, NonsenseIsRefused)

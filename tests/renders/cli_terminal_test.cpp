@@ -106,6 +106,19 @@ TEST_F(TerminalTest, EveryStyleOfEveryRenderEndsWithItsFilm)
     }
 }
 
+TEST_F(TerminalTest, APictureHasTheSameBytesWithoutATerminal)
+{
+    const std::vector<std::string> options{
+        "--spp", "16", "--fov", "60", "--zoom", "0.5", "--environment", "1,1,1", "--environment-background", "off"};
+    for (const char* ending : {".png", ".webp", ".jpg"}) {
+        const std::string shown = std::string("shown") + ending, piped = std::string("piped") + ending;
+        EXPECT_EQ(runOnTerminal(call(options, shown)).exitCode, 0);
+        EXPECT_EQ(runGlim(call(options, piped)).exitCode, 0);
+        EXPECT_NE(readFileBytes(folder_ / shown.c_str()), "");
+        EXPECT_EQ(readFileBytes(folder_ / shown.c_str()), readFileBytes(folder_ / piped.c_str())) << ending;
+    }
+}
+
 TEST_F(TerminalTest, TheBarFitsATerminalThatChangesItsSize)
 {
     bool isNarrow = false;

@@ -69,6 +69,17 @@ TEST_F(PreviewTest, TakesTheOptionsOfARender)
     }
 }
 
+TEST_F(PreviewTest, WritesAlphaWhereTheBackgroundIsHidden)
+{
+    const char* const kOptions = "--spp 2 --environment 1,1,1 --environment-background off --zoom 0.5";
+    std::istringstream words(kOptions);
+    run("0 samples 2000000000\n0 key P\n0 close\n", {std::istream_iterator<std::string>(words), {}});
+    EXPECT_TRUE(sameBits(film(1), render(kOptions)));
+    const std::string bytes = readFileBytes(folder / "cornell_spheres-001.png");
+    EXPECT_EQ(bytes, readFileBytes(folder / "r.png"));
+    EXPECT_EQ(bytes.at(25), 6) << "RGBA";
+}
+
 // Wherever the camera is, C prints the options with which `glim render` gives the same bits.
 TEST_F(PreviewTest, PrintsTheOptionsOfItsCamera)
 {

@@ -236,7 +236,8 @@ class Film:
 
     def save(self, path: Path, *, exposure: Union[float, str] = 0.0, tone: str = "none") -> None:
         """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read, or an sRGB picture (.png, .jpg, .jpeg or .webp). Its
-        exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx"."""
+        exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx". PNG and WebP have alpha if environment_background was
+        off."""
         name = path_of(path, "path")
         stops = None if isinstance(exposure, str) and exposure == "auto" else _stops(exposure)
         if not isinstance(tone, str):
