@@ -31,7 +31,7 @@ constexpr HelpLine kHelp[] = {
     {"Space", "pause"},
     {"P", "write PNG and EXR"},
     {"C", "print camera and changes as options"},
-    {"H", "panels, help too, nothing"},
+    {"H", "controls, these keys, nothing"},
     {"Esc", "quit"},
 };
 
@@ -153,6 +153,6 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
     return choices;
 }
 
-void showHelp() { showHelp(kHelp); }
+void showHelp(float below) { showHelp(kHelp, below); }
 
 }  // namespace glim

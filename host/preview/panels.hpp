@@ -58,6 +58,7 @@ struct PanelMessages {
 // Call these inside a frame (host/window/gui.hpp).
 // Returns `choices` with what the user changes in this frame.
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices);
-void showHelp();
+// Above the messages, whose height is `below`.
+void showHelp(float below);
 
 }  // namespace glim

@@ -40,6 +40,16 @@ Refiner::Refiner(const Refiner& other, const PreparedScene& prepared, const Rend
       renderer_(other.renderer_, prepared.flat, camera_, startingSettings(settings))
 {}
 
+FlatCamera Refiner::flatten(const Camera& camera, const glm::uvec2& size) const
+{
+    return flattenCamera(prepared_, camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
+}
+
+bool Refiner::needsKernels(const Camera& camera, const glm::uvec2& size) const
+{
+    return !renderer_.resources().hasKernels(prepared_.flat, flatten(camera, size));
+}
+
 void Refiner::renew() { renderer_.restart(prepared_.flat, camera_, 1, 1); }
 
 // `seconds` is what a coarse picture at movingScale_ took. A picture of twice the resolution takes up to four times as long.
@@ -55,7 +65,7 @@ void Refiner::chooseMovingScale(double seconds)
 void Refiner::show(const Camera& camera, const glm::uvec2& size)
 {
     size_ = size;
-    camera_ = flattenCamera(prepared_, camera, static_cast<float>(size.x) / static_cast<float>(size.y), lens_);
+    camera_ = flatten(camera, size);
     moved_ = Clock::now();
     begin(movingScale_, true);
 }

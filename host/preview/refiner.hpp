@@ -17,6 +17,9 @@ public:
     // Shares the resources of `other`, which is of the same scene and must outlive this one.
     Refiner(const Refiner& other, const PreparedScene& prepared, const RenderSettings& settings);
 
+    // Whether kernels must be compiled for the scene, which has changed, or for this camera.
+    bool needsKernels() const { return !renderer_.resources().hasKernels(prepared_.flat, camera_); }
+    bool needsKernels(const Camera& camera, const glm::uvec2& size) const;
     // To be called when the scene has changed. Kernels and buffers that serve it stay; show() follows.
     void renew();
     // Starts the picture of this camera in this size. It is coarse at first, since the camera may move on.
@@ -39,6 +42,7 @@ public:
 
 private:
     static constexpr std::uint32_t kCoarsest = 8;
+    FlatCamera flatten(const Camera& camera, const glm::uvec2& size) const;
     void chooseMovingScale(double seconds);
     void begin(std::uint32_t scale, bool fresh);
     void advance(const std::function<bool()>& shouldContinue);

@@ -6,6 +6,7 @@ namespace glim {
 
 void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
 {
+    beforeCompiling_();
     auto light = std::make_unique<Refiner>(device_, loaded->prepared, settings_, lens_);
     leaveSteps();
     light_ = std::move(light);
@@ -16,6 +17,9 @@ void ScenePictures::edit(const std::vector<Edit>& edits, std::optional<double> s
 {
     editScene(loaded_->prepared, loaded_->file, edits, seconds, split);
     leaveSteps();
+    if (light_->needsKernels()) {
+        beforeCompiling_();
+    }
     light_->renew();
 }
 
@@ -39,7 +43,8 @@ std::vector<Aov> ScenePictures::layers() const
 
 bool ScenePictures::choose(Aov layer, const Camera& camera, const glm::uvec2& size, bool hasMoved)
 {
-    if (!isCompiled(layer)) {
+    if (layer == Aov::BvhSteps && !steps_) {
+        beforeCompiling_();
         RenderSettings settings = settings_;
         settings.aov = Aov::BvhSteps;
         settings.bounces = 0;
@@ -57,6 +62,9 @@ bool ScenePictures::choose(Aov layer, const Camera& camera, const glm::uvec2& si
 
 void ScenePictures::show(const Camera& camera, const glm::uvec2& size)
 {
+    if (shown().needsKernels(camera, size)) {
+        beforeCompiling_();
+    }
     shown().show(camera, size);
     lightIsStale_ = layer_ == Aov::BvhSteps;
 }

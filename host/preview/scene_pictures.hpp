@@ -4,18 +4,22 @@
 #include "host/preview/refiner.hpp"
 #include "host/preview/scene_loader.hpp"
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace glim {
 
 class ScenePictures {
 public:
-    // `settings` and `lens` of all scenes; the size does not matter.
-    ScenePictures(Device& device, const RenderSettings& settings, const Lens& lens)
+    // `settings` and `lens` of all scenes; the size does not matter. Calls `beforeCompiling` whenever kernels are to be compiled, which
+    // takes a while.
+    ScenePictures(Device& device, const RenderSettings& settings, const Lens& lens, std::function<void()> beforeCompiling)
         : device_(device),
           settings_(settings),
-          lens_(lens)
+          lens_(lens),
+          beforeCompiling_(std::move(beforeCompiling))
     {}
 
     // Takes the scene in place of the one before, which stays if the new one is refused. show() follows.
@@ -30,8 +34,6 @@ public:
     // What can be chosen: without a BVH there are no steps.
     std::vector<Aov> layers() const;
     Aov layer() const { return layer_; }
-    // Whether choose() must first compile kernels, which takes a while.
-    bool isCompiled(Aov layer) const { return layer != Aov::BvhSteps || steps_; }
     // Shows another layer. `hasMoved`: the camera is another one than that of the last show(). Returns whether a new picture began.
     bool choose(Aov layer, const Camera& camera, const glm::uvec2& size, bool hasMoved);
 
@@ -46,6 +48,7 @@ private:
     Device& device_;
     RenderSettings settings_;
     Lens lens_;
+    std::function<void()> beforeCompiling_;
     std::unique_ptr<LoadedScene> loaded_;
     std::unique_ptr<Refiner> light_;
     std::unique_ptr<Refiner> steps_;  // made when it is first shown; shares light_'s buffers

@@ -29,7 +29,7 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       screen_(window, options.device),
       display_(screen_.device()),
       loader_(options.scene, options.load, options.split),
-      pictures_(screen_.device(), options.settings, options.lens),
+      pictures_(screen_.device(), options.settings, options.lens, [this] { announceCompiling(); }),
       meter_(options.look)
 {
     display_.resize(std::max(1U, window.pictureSize().x), std::max(1U, window.pictureSize().y));
@@ -121,7 +121,6 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     settings.width = display_.width();
     settings.height = display_.height();
     checkMemory(prepared, settings, screen_.device().description());
-    window_.setTitle("glim: compiling kernels for " + options_.scene.filename().string());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared.scene, options_.camera);
         sayIfCameraIsNumber(prepared.scene, options_.camera);
@@ -143,7 +142,6 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     if (!isFirst) {
         tell(options_.scene.string() + " has changed and is loaded again");
     }
-    window_.setTitle("glim: " + options_.scene.filename().string());
     show();
 }
 
@@ -354,18 +352,10 @@ void Session::undo()
 
 void Session::chooseLayer(Aov layer)
 {
-    const auto choose = [this, layer] {
-        if (pictures_.choose(layer, viewpoint_->camera(), size(), viewpoint_->hasMoved())) {
-            begin();
-        }
-        meter_.renew();
-    };
-    if (pictures_.isCompiled(layer)) {
-        choose();
-    } else {
-        say("compiling kernels that count BVH steps");
-        later_ = choose;
+    if (pictures_.choose(layer, viewpoint_->camera(), size(), viewpoint_->hasMoved())) {
+        begin();
     }
+    meter_.renew();
 }
 
 void Session::chooseCamera(std::size_t index)
@@ -375,23 +365,42 @@ void Session::chooseCamera(std::size_t index)
     }
 }
 
-void Session::buildPanels()
+PanelChoices Session::chosen() const
 {
-    const PanelChoices before{meter_.look().exposure, meter_.look().tone, pictures_.layer(), viewpoint_ ? viewpoint_->index() : 0,
-                              surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
+    return {meter_.look().exposure, meter_.look().tone, pictures_.layer(), viewpoint_ ? viewpoint_->index() : 0,
+            surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
+}
+
+// Returns what the user wants to be chosen.
+PanelChoices Session::layOutPanels(const PanelChoices& before)
+{
     PanelChoices wanted = before;
     screen_.gui().frame(size(), [&] {
         const bool isThere = !pictures_.isEmpty();
-        if (isThere && panelLevel_ > 0) {
+        const float below = !isThere || panelLevel_ > 0 ? showMessages(messages_.lines()) : 0.0F;
+        if (isThere && panelLevel_ == 1) {
             wanted = showControls(figures(), before);
         }
-        if (panelLevel_ > 1) {
-            showHelp();
-        }
-        if (!isThere || panelLevel_ > 0) {
-            showMessages(messages_.lines());
+        if (panelLevel_ == 2) {
+            showHelp(below);
         }
     });
+    return wanted;
+}
+
+// The window answers nothing until the kernels are there. So it must say that before, over whatever picture it has.
+void Session::announceCompiling()
+{
+    messages_.stage = "compiling kernels";  // takeScene() ends it
+    window_.setTitle("glim: " + messages_.stage + " for " + options_.scene.filename().string());
+    layOutPanels(chosen());
+    layOutPanels(chosen());
+    screen_.present(display_.picture());
+}
+
+void Session::buildPanels()
+{
+    const PanelChoices before = chosen(), wanted = layOutPanels(before);
     if (wanted.exposure != before.exposure) {
         meter_.setExposure(wanted.exposure);
     }

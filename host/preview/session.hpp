@@ -63,7 +63,10 @@ private:
     void tell(const std::string& text);  // shows the text in the window and prints it to stderr
 
     // The panels over the picture.
+    PanelChoices chosen() const;
+    PanelChoices layOutPanels(const PanelChoices& before);
     void buildPanels();
+    void announceCompiling();
     PanelFigures figures() const;
 
     Window& window_;
@@ -89,7 +92,7 @@ private:
     Gestures gestures_;
     bool mouseIsPanels_ = false;  // since the last event of the mouse
     bool paused_ = false, closing_ = false;
-    int panelLevel_ = 1;  // 0: nothing, 1: controls, 2: help too
+    int panelLevel_ = 1;  // 0: nothing, 1: controls, 2: keys
     std::uint64_t handledEvents_ = 0, frames_ = 0;
 };
 

@@ -52,6 +52,12 @@ RenderResources::RenderResources(const RenderResources& other, const FlatScene& 
     : RenderResources(other.device, other.shared, nullptr, scene, camera, asked)
 {}
 
+bool RenderResources::hasKernels(const FlatScene& scene, const FlatCamera& camera) const
+{
+    const Specialization needed = specialize(scene, camera, settings);
+    return serves(kernels().specialization, needed) || (spare && serves(spare->set.specialization, needed));
+}
+
 void RenderResources::adapt(const FlatScene& scene, const FlatCamera& camera)
 {
     const Specialization needed = specialize(scene, camera, settings);

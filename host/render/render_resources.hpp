@@ -39,6 +39,8 @@ struct RenderResources {
     RenderResources& operator=(const RenderResources&) = delete;
 
     LastingResources lasting() const { return {compiled, shared->scene.lasting()}; }
+    // Whether the present kernels, or those before, serve this camera.
+    bool hasKernels(const FlatScene& scene, const FlatCamera& camera) const;
     // Takes other kernels if the present ones do not serve this camera, and compiles them if need be: a camera close to large triangles
     // needs kFeatureLargeTriangles. The kernels before stay for cameras that come back.
     void adapt(const FlatScene& scene, const FlatCamera& camera);

@@ -19,7 +19,7 @@ constexpr HelpLine kHelp[] = {
     {"+ -", "exposure, or gain of A - B"},
     {"T", "next tone"},
     {"click", "print the pixel's layers"},
-    {"H", "panel, help too, nothing"},
+    {"H", "controls, these keys, nothing"},
     {"Esc", "quit"},
 };
 
@@ -55,6 +55,6 @@ ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices)
     return choices;
 }
 
-void showViewHelp() { showHelp(kHelp); }
+void showViewHelp(float below) { showHelp(kHelp, below); }
 
 }  // namespace glim

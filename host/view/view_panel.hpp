@@ -30,6 +30,7 @@ struct ViewFigures {
 
 // Call these inside a frame (host/window/gui.hpp). showViewPanel returns `choices` with what the user changes in it.
 ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices);
-void showViewHelp();
+// Above the messages, whose height is `below`.
+void showViewHelp(float below);
 
 }  // namespace glim

@@ -334,12 +334,14 @@ void ViewSession::buildPanels()
     const ViewChoices before = shownChoices();
     ViewChoices wanted = before;
     gui_.frame(painter_.size(), [&] {
-        if (panelLevel_ > 0) {
-            wanted = showViewPanel(figures(), before);
-            showMessages(notice_.text().empty() ? std::vector<std::string>{} : std::vector{notice_.text()});
+        if (panelLevel_ == 0) {
+            return;
         }
-        if (panelLevel_ > 1) {
-            showViewHelp();
+        const float below = showMessages(notice_.text().empty() ? std::vector<std::string>{} : std::vector{notice_.text()});
+        if (panelLevel_ == 1) {
+            wanted = showViewPanel(figures(), before);
+        } else {
+            showViewHelp(below);
         }
     });
     change(wanted);

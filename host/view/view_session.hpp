@@ -86,7 +86,7 @@ private:
     Gestures gestures_;
     std::optional<glm::dvec2> pointer_;  // absent: over a panel
     bool closing_ = false;
-    int panelLevel_ = 1;  // 0: nothing, 1: controls, 2: help too
+    int panelLevel_ = 1;  // 0: nothing, 1: controls, 2: keys
     Notice notice_;
     bool changed_ = true;  // there is something new to present
     std::uint64_t handledEvents_ = 0;

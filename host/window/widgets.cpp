@@ -10,6 +10,24 @@ constexpr float kOpacity = 0.8F;
 constexpr float kExposureRange = 10.0F;  // stops to either side of 0
 constexpr float kWidth = 17.0F;          // of the controls, in heights of the font
 constexpr float kMessageWidth = 40.0F;   // the same
+constexpr float kSmallest = 0.25F;       // of the help's text, relative to the font
+
+// How much smaller the table and the title must be for the panel to fit into the window; its margins stay.
+float helpScale(std::span<const HelpLine> lines, float below)
+{
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    float keys = 0.0F, meanings = 0.0F;
+    for (const auto& [key, meaning] : lines) {
+        keys = std::max(keys, ImGui::CalcTextSize(key).x);
+        meanings = std::max(meanings, ImGui::CalcTextSize(meaning).x);
+    }
+    const auto rows = static_cast<float>(lines.size());
+    const float wide = (window.x - 2.0F * style.WindowPadding.x) / (keys + meanings + 4.0F * style.CellPadding.x);
+    const float margins = 2.0F * (style.WindowPadding.y + style.FramePadding.y);
+    const float high = (window.y - below - margins) / ((rows + 1.0F) * ImGui::GetFontSize() + 2.0F * rows * style.CellPadding.y);
+    return std::clamp(std::min(wide, high), kSmallest, 1.0F);
+}
 
 }  // namespace
 
@@ -40,12 +58,16 @@ Tone toneCombo(Tone chosen)
     return choose("tone", {Tone::None, Tone::Neutral, Tone::Agx}, chosen, [](Tone tone) { return getName(tone); });
 }
 
-void showHelp(std::span<const HelpLine> lines)
+void showHelp(std::span<const HelpLine> lines, float below)
 {
-    const float left = kWidth * ImGui::GetFontSize() + 8.0F * ImGui::GetStyle().WindowPadding.x;
-    ImGui::SetNextWindowPos({left, 0.0F}, ImGuiCond_FirstUseEver);
+    const float scale = helpScale(lines, below);
+    ImGui::SetNextWindowPos({0.0F, 0.0F}, ImGuiCond_Always);
     ImGui::SetNextWindowBgAlpha(kOpacity);
-    if (ImGui::Begin("keys and mouse", nullptr, kFlags) && ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    const bool shows = ImGui::Begin("keys and mouse", nullptr, kFlags | ImGuiWindowFlags_NoCollapse);
+    ImGui::SetWindowFontScale(scale);
+    const ImVec2 padding = ImGui::GetStyle().CellPadding;
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scale * padding.x, scale * padding.y});
+    if (shows && ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const auto& [key, meaning] : lines) {
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(key);
@@ -54,13 +76,14 @@ void showHelp(std::span<const HelpLine> lines)
         }
         ImGui::EndTable();
     }
+    ImGui::PopStyleVar();
     ImGui::End();
 }
 
-void showMessages(const std::vector<std::string>& lines)
+float showMessages(const std::vector<std::string>& lines)
 {
     if (lines.empty()) {
-        return;
+        return 0.0F;
     }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.0F, size.y}, ImGuiCond_Always, {0.0F, 1.0F});
@@ -72,7 +95,9 @@ void showMessages(const std::vector<std::string>& lines)
         }
         ImGui::PopTextWrapPos();
     }
+    const float height = ImGui::GetWindowHeight();
     ImGui::End();
+    return height;
 }
 
 }  // namespace glim

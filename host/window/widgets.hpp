@@ -37,9 +37,10 @@ Tone toneCombo(Tone chosen);
 struct HelpLine {
     const char *key, *meaning;
 };
-// Beside the panel of controls.
-void showHelp(std::span<const HelpLine> lines);
-// In the lower left corner. Nothing if there are no lines.
-void showMessages(const std::vector<std::string>& lines);
+// In the upper left corner, in place of the panel of controls. The text is smaller where the window has no room for it above the messages,
+// whose height is `below`.
+void showHelp(std::span<const HelpLine> lines, float below);
+// In the lower left corner. Nothing if there are no lines. Returns the height of their panel.
+float showMessages(const std::vector<std::string>& lines);
 
 }  // namespace glim

@@ -3,15 +3,19 @@
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
 #include "host/preview/surface_edits.hpp"
+#include "host/view/view_panel.hpp"
 #include "host/window/gestures.hpp"
+#include "host/window/gui.hpp"
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
 #include "host/window/script.hpp"
+#include "host/window/widgets.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <imgui_internal.h>
 #include <algorithm>
 #include <thread>
 
@@ -190,6 +194,64 @@ TEST(PanelMessagesTest, AreShownOnce)
     messages.notice.show(messages.trouble);
     messages.stage = "loading a.gltf";
     EXPECT_EQ(messages.lines(), (std::vector<std::string>{"loading a.gltf", "a.gltf: broken"}));
+}
+
+// The panels that ImGui lays out in a window of this size.
+struct LaidOutPanel {
+    std::string name;
+    ImRect place;
+    ImVec2 hidden;  // what the panel is too small for
+    float fontSize;
+};
+
+std::vector<LaidOutPanel> layOut(float scale, const glm::uvec2& size, const std::function<void()>& build)
+{
+    Gui gui(scale);
+    unsigned char* texels = nullptr;
+    int width = 0, height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
+    for (int frame = 0; frame < 3; ++frame) {
+        gui.frame(size, build);
+    }
+    std::vector<LaidOutPanel> panels;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        if (window->Active && !window->Hidden && window == window->RootWindow && !window->IsFallbackWindow) {
+            panels.push_back({window->Name, window->Rect(), window->ScrollMax, window->CalcFontSize()});
+        }
+    }
+    return panels;
+}
+
+// At this window's size, with as many messages as there may be.
+void expectReadableHelp(float scale, const glm::uvec2& size, const std::function<void(float)>& help, float leastFontSize)
+{
+    for (const std::size_t count : {0, 1, 3}) {
+        std::vector<std::string> messages{"wrote cornell_spheres-001.exr and .png", "compiling kernels",
+                                          "A sentence of the window that is longer than its panel is wide, at least here."};
+        messages.resize(count);
+        const std::vector<LaidOutPanel> panels = layOut(scale, size, [&] { help(showMessages(messages)); });
+        ASSERT_EQ(panels.size(), count == 0 ? 1U : 2U);
+        const ImRect window(0.0F, 0.0F, static_cast<float>(size.x), static_cast<float>(size.y));
+        for (const LaidOutPanel& panel : panels) {
+            EXPECT_TRUE(window.Contains(panel.place))
+                << panel.name << " ends at " << panel.place.Max.x << ", " << panel.place.Max.y << " with " << count << " messages";
+            EXPECT_EQ(panel.hidden.x, 0.0F) << panel.name;
+            EXPECT_EQ(panel.hidden.y, 0.0F) << panel.name;
+            EXPECT_GE(panel.fontSize, leastFontSize) << panel.name << " with " << count << " messages";
+        }
+        EXPECT_FALSE(count > 0 && panels[0].place.Overlaps(panels[1].place)) << count << " messages";
+    }
+}
+
+TEST(HelpTest, FitsTheWindowAndCoversNoMessage)
+{
+    const std::function<void(float)> ofPreview = [](float below) { showHelp(below); }, ofView = showViewHelp;
+    for (const auto& help : {ofPreview, ofView}) {
+        expectReadableHelp(1.0F, {512, 512}, help, 11.0F);
+        expectReadableHelp(2.0F, {1024, 1024}, help, 22.0F);
+        expectReadableHelp(2.0F, {512, 512}, help, 11.0F);
+        expectReadableHelp(1.0F, {1280, 720}, help, 13.0F);
+    }
 }
 
 // An input waits until a picture is shown that began after it.

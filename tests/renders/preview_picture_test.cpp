@@ -172,12 +172,19 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
         }
         return pictures.shown().renderer().film();
     };
-    ScenePictures pictures(testDevice(), settings, {}), edited(testDevice(), settings, {});
+    int compiled = 0;
+    ScenePictures pictures(testDevice(), settings, {}, [&compiled] { ++compiled; }), edited(testDevice(), settings, {}, [] {});
     enterScene(pictures, {});
     const Film before = makeFilm(pictures);
+    EXPECT_EQ(compiled, 1) << "at the start";
+    pictures.edit({edits[1]}, std::nullopt, SplitRule::Sah);
+    makeFilm(pictures);
+    EXPECT_EQ(compiled, 1) << "the same kernels serve it";
+    pictures.edit({}, std::nullopt, SplitRule::Sah);
     EXPECT_THROW(pictures.edit({{"/materials/99/alphaCutoff", "1"}}, std::nullopt, SplitRule::Sah), InputError);
     EXPECT_TRUE(sameBits(makeFilm(pictures), before));
     pictures.edit(edits, std::nullopt, SplitRule::Sah);
+    EXPECT_EQ(compiled, 2) << "a coat needs others";
     LoadOptions options;
     options.edits = edits;
     enterScene(edited, options);
@@ -192,7 +199,8 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
 TEST(ScenePicturesTest, LayersShowThePresentView)
 {
     const glm::uvec2 size(8, 6);
-    ScenePictures pictures(testDevice(), {}, {});
+    int compiled = 0;
+    ScenePictures pictures(testDevice(), {}, {}, [&compiled] { ++compiled; });
     EXPECT_TRUE(pictures.isEmpty());
     const auto enter = [&pictures] {
         enterScene(pictures, {});
@@ -201,8 +209,9 @@ TEST(ScenePicturesTest, LayersShowThePresentView)
     Camera camera = enter();
     pictures.show(camera, size);
     EXPECT_FALSE(pictures.choose(Aov::Normal, camera, size, false));
-    EXPECT_FALSE(pictures.isCompiled(pictures.layers().back()));
+    EXPECT_EQ(compiled, 1);
     EXPECT_TRUE(pictures.choose(Aov::BvhSteps, camera, size, false));
+    EXPECT_EQ(compiled, 2) << "kernels that count steps";
     EXPECT_TRUE(pictures.shown().isFresh());
     EXPECT_FALSE(pictures.choose(Aov::Depth, camera, size, false)) << "the camera has not moved";
     EXPECT_TRUE(pictures.choose(Aov::BvhSteps, camera, size, false));
