@@ -27,6 +27,7 @@ void addWindow(OptionTable& table, WindowOptions& options)
 void resolveEnd(OptionTable& table, RenderSettings& settings)
 {
     const bool ends = table.isGiven("--spp") || table.isGiven("--samples") || table.isGiven("--max-spp");
+    settings.halvesLate = !ends;  // what ends may end within the second until they are kept
     if (!ends && !isCourse(settings.adaptive)) {
         settings.sampleEnd = kMaxSample / settings.course.lightSamples;
     }
@@ -54,13 +55,14 @@ void addPreview(CommandLine& line)
     command.setFooter(
         "Mouse: left-drag orbits, middle-drag or shift-drag pans, the wheel moves closer, a click prints what is there.\n"
         "Keys: W A S D Q E fly, F frames the scene, R the file's camera, 1-9 its others, + - exposure, T next tone,\n"
-        "V next layer, Space pauses, P writes EXR and PNG, C prints the camera as options and glTF, Esc quits.\n"
+        "V next layer, N denoises or not, Space pauses, P writes EXR and PNG, C prints the camera as options and glTF, Esc quits.\n"
         "H shows the controls, a list of keys, or the picture alone.\n"
         "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.\n"
         "host/cli/README.md has more on every option.");
     command.onFinished([&command, options] {
         resolvePicture(command, *options);
         resolveEnd(command, options->settings);
+        options->settings.halves = options->settings.adaptive == Adaptive::Off;
         options->settings.caustics = false;  // their light would come in blocks of samples, seconds late
         if (options->settings.schedule == Schedule::Auto) {
             options->settings.schedule = Schedule::Wavefront;

@@ -39,14 +39,14 @@ private:
 
 // Calls visit(pixels) for each tile, row by row.
 template <class Visit>
-void forEachTile(const Film& film, Visit visit)
+void forEachTile(const glm::uvec2& size, Visit visit)
 {
-    for (std::uint32_t y = 0; y < film.height; y += kTile) {
-        for (std::uint32_t x = 0; x < film.width; x += kTile) {
+    for (std::uint32_t y = 0; y < size.y; y += kTile) {
+        for (std::uint32_t x = 0; x < size.x; x += kTile) {
             std::vector<std::size_t> pixels;
-            for (std::uint32_t j = y; j < std::min(y + kTile, film.height); ++j) {
-                for (std::uint32_t i = x; i < std::min(x + kTile, film.width); ++i) {
-                    pixels.push_back(std::size_t{j} * film.width + i);
+            for (std::uint32_t j = y; j < std::min(y + kTile, size.y); ++j) {
+                for (std::uint32_t i = x; i < std::min(x + kTile, size.x); ++i) {
+                    pixels.push_back(std::size_t{j} * size.x + i);
                 }
             }
             visit(pixels);
@@ -80,10 +80,10 @@ Interval intervalOf(const std::vector<PixelError>& errors, double balance)
 }
 
 // Means over the squares of 17 pixels around each pixel.
-std::vector<glm::dvec3> averageAround(const Film& film, const std::vector<glm::dvec3>& values)
+std::vector<glm::dvec3> averageAround(const glm::uvec2& size, const std::vector<glm::dvec3>& values)
 {
     constexpr int kRadius = 8;
-    const int width = static_cast<int>(film.width), height = static_cast<int>(film.height);
+    const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
     const auto along = [&](const std::vector<glm::dvec3>& from, int length, int step, int lines, int lineStep) {
         std::vector<glm::dvec3> to(from.size());
         for (int line = 0; line < lines; ++line) {
@@ -106,13 +106,13 @@ double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 
 // Both halves as they were and as they are denoised.
 class Measurement {
 public:
-    Measurement(const Film& first, const Film& second, std::vector<glm::vec3> a, std::vector<glm::vec3> b)
-        : size_(first),
-          noisyA_(radianceOf(first)),
-          noisyB_(radianceOf(second)),
-          a_(std::move(a)),
-          b_(std::move(b)),
-          balance_(balanceOf(first.pixels.front().count, second.pixels.front().count))
+    Measurement(const glm::uvec2& size, DenoisedHalf first, DenoisedHalf second)
+        : size_(size),
+          noisyA_(std::move(first.noisy)),
+          noisyB_(std::move(second.noisy)),
+          a_(std::move(first.denoised)),
+          b_(std::move(second.denoised)),
+          balance_(balanceOf(first.samples, second.samples))
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < a_.size(); ++i) {
@@ -128,15 +128,6 @@ public:
     DenoisedPicture picture() const;
 
 private:
-    static std::vector<glm::vec3> radianceOf(const Film& film)
-    {
-        std::vector<glm::vec3> radiance;
-        for (const PixelMoments& pixel : shownPixels(film)) {
-            radiance.push_back(pixel.mean);
-        }
-        return radiance;
-    }
-
     glm::vec3 radiance(std::size_t i) const { return 0.5F * (a_[i] + b_[i]); }
     glm::dvec3 squaredError(std::size_t i) const { return squaredDifference(a_, b_, i) / 4.0 + product(i); }
     glm::dvec3 noisySquaredError(std::size_t i) const { return squaredDifference(noisyA_, noisyB_, i) / 4.0; }
@@ -162,7 +153,7 @@ private:
     // Of the halves' variances, which are as the inverse of their samples.
     static double balanceOf(double first, double second) { return 4.0 * first * second / ((first + second) * (first + second)); }
 
-    const Film& size_;
+    glm::uvec2 size_;
     std::vector<glm::vec3> noisyA_, noisyB_, a_, b_;
     double balance_, mean_ = 0.0;
     std::vector<glm::dvec3> weights_;  // of relMSE
@@ -213,6 +204,31 @@ DenoisedPicture Measurement::picture() const
 
 }  // namespace
 
+DenoisedHalf noisyHalf(const Film& film)
+{
+    DenoisedHalf half{{}, {}, film.pixels.front().count};
+    for (const PixelMoments& pixel : shownPixels(film)) {
+        half.noisy.push_back(pixel.mean);
+    }
+    return half;
+}
+
+DenoisedPicture joinHalves(const glm::uvec2& size, std::array<DenoisedHalf, 2> halves)
+{
+    Measurement measurement(size, std::move(halves[0]), std::move(halves[1]));
+    measurement.keepNoisyTiles();
+    return measurement.picture();
+}
+
+Film showDenoised(Film film, const std::vector<glm::vec3>& radiance)
+{
+    film.splats.clear();
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        film.pixels[i].mean = radiance[i];
+    }
+    return film;
+}
+
 bool hasBothHalves(const FilmHalves& halves)
 {
     return std::ranges::all_of(halves.films(), [](const Film& film) {
@@ -222,15 +238,17 @@ bool hasBothHalves(const FilmHalves& halves)
 
 std::optional<DenoisedPicture> denoiseHalves(const FilmHalves& halves, const Denoiser& denoiser)
 {
-    const auto& [first, second] = halves.films();
-    auto a = denoiser(first);
-    auto b = a ? denoiser(second) : std::nullopt;
-    if (!b) {
-        return std::nullopt;
+    std::array<DenoisedHalf, 2> joined;
+    for (std::size_t i = 0; i < 2; ++i) {
+        auto denoised = denoiser(halves.films()[i]);
+        if (!denoised) {
+            return std::nullopt;
+        }
+        joined[i] = noisyHalf(halves.films()[i]);
+        joined[i].denoised = *std::move(denoised);
     }
-    Measurement measurement(first, second, *std::move(a), *std::move(b));
-    measurement.keepNoisyTiles();
-    return measurement.picture();
+    const Film& film = halves.films()[0];
+    return joinHalves({film.width, film.height}, std::move(joined));
 }
 
 }  // namespace glim

@@ -4,6 +4,7 @@
 #include "host/measure/confidence.hpp"
 #include "host/render/film_halves.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -34,6 +35,21 @@ struct DenoisedPicture {
     DenoisedError measured;
     double noisyShare = 0.0;  // of the pixels: these stayed as they were, because denoising made their tile worse
 };
+
+// Half of the samples.
+struct DenoisedHalf {
+    std::vector<glm::vec3> noisy, denoised;  // radiance
+    std::uint32_t samples;                   // of a pixel
+};
+
+// The radiance and the samples of a half that is still to be denoised.
+DenoisedHalf noisyHalf(const Film& film);
+
+// The mean of both halves, and its error. Where denoising makes a tile worse, it stays noisy.
+DenoisedPicture joinHalves(const glm::uvec2& size, std::array<DenoisedHalf, 2> halves);
+
+// `film` with the denoised radiance, to be shown and not to be kept: its moments are those of no samples.
+Film showDenoised(Film film, const std::vector<glm::vec3>& radiance);
 
 // Whether each pixel has samples in both halves.
 bool hasBothHalves(const FilmHalves& halves);

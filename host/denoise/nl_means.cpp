@@ -43,9 +43,11 @@ NoisyPixel noisyPixel(const PixelMoments& pixel, float scale)
 
 }  // namespace
 
-// Rows of the picture: those that are denoised, and those that they depend on.
-struct NlMeans::Band {
-    std::uint32_t width, begin, end, first, last;
+// Rows of the picture: those that are denoised, and those that they depend on, with their buffers.
+struct NlMeans::Work::Band {
+    std::uint32_t begin, end, first, last;
+    Buffer given, pooled, distances, sums;
+    Bindings bindings;
 
     std::uint32_t height() const { return last - first; }
 };
@@ -63,75 +65,100 @@ NlMeans::NlMeans(Device& device)
       weigh_(layout_, kernels::weigh_patches, {{kSpecWorkgroup, kWorkgroup}})
 {}
 
-bool NlMeans::run(const Kernel& kernel, const Bindings& bindings, DenoisePass pass, std::uint32_t count,
-                  const std::function<bool()>& shouldContinue)
+NlMeans::Work::Work(NlMeans& denoiser, const Film& film)
+    : denoiser_(denoiser),
+      width_(film.width),
+      height_(film.height)
 {
-    std::uint32_t& most = threads_.try_emplace(&kernel, kFirstThreads).first->second;
-    for (pass.first = 0; pass.first < count; pass.first += pass.count) {
+    const std::vector<PixelMoments> pixels = shownPixels(film);
+    scale_ = scaleOf(pixels);
+    for (const PixelMoments& pixel : pixels) {
+        noisy_.push_back(noisyPixel(pixel, scale_));
+    }
+}
+
+void NlMeans::Work::openBand()
+{
+    constexpr std::uint32_t kMargin = kDenoiseMargin;
+    const std::uint32_t rows = kBandPixels / width_ - 2 * kMargin;  // a picture is at most 65,535 pixels wide
+    const auto begin = static_cast<std::uint32_t>(result_.size() / width_), end = std::min(height_, begin + rows);
+    const std::uint32_t first = begin > kMargin ? begin - kMargin : 0, last = std::min(height_, end + kMargin);
+    const std::size_t count = std::size_t{last - first} * width_;
+    Device& device = denoiser_.device_;
+    Buffer given(device, "noisy pixels", BufferKind::Storage, count * sizeof(NoisyPixel));
+    Buffer pooled(device, "pooled variance", BufferKind::Storage, count * sizeof(glm::vec3));
+    Buffer distances(device, "distances of pixels", BufferKind::Storage, count * kWindowWidth * sizeof(float));
+    Buffer sums(device, "sums over windows", BufferKind::Readback, count * sizeof(WeightedSum));
+    upload(given, std::span<const NoisyPixel>(noisy_).subspan(std::size_t{first} * width_, count));
+    Commands commands(device);
+    commands.fillWithZero(sums);
+    commands.submitAndWait();
+    Bindings bindings(denoiser_.layout_, {{kBindNoisy, &given}, {kBindPooled, &pooled}, {kBindDistances, &distances}, {kBindSums, &sums}});
+    band_ = std::make_shared<Band>(
+        Band{begin, end, first, last, std::move(given), std::move(pooled), std::move(distances), std::move(sums), std::move(bindings)});
+    step_ = thread_ = 0;
+}
+
+// In dispatches of about a twentieth of a second.
+bool NlMeans::Work::runStep(const std::function<bool()>& shouldContinue)
+{
+    const Kernel& kernel = step_ == 0 ? denoiser_.pool_ : step_ % 2 == 1 ? denoiser_.compare_ : denoiser_.weigh_;
+    const std::uint32_t rows = band_->height(), strips = (rows + kStripRows - 1) / kStripRows;
+    const std::uint32_t count = width_ * (&kernel == &denoiser_.weigh_ ? strips : rows);
+    std::uint32_t& most = denoiser_.threads_.try_emplace(&kernel, kFirstThreads).first->second;
+    DenoisePass pass{width_, rows};
+    pass.windowRow = step_ == 0 ? 0 : (step_ - 1) / 2;
+    for (; thread_ < count; thread_ += pass.count) {
         if (!shouldContinue()) {
             return false;
         }
-        pass.count = std::min(count - pass.first, most);
+        pass.first = thread_;
+        pass.count = std::min(count - thread_, most);
         const auto start = Clock::now();
-        Commands commands(device_);
-        commands.dispatch(kernel, bindings, std::as_bytes(std::span<const DenoisePass, 1>(&pass, 1)),
+        Commands commands(denoiser_.device_);
+        commands.dispatch(kernel, band_->bindings, std::as_bytes(std::span<const DenoisePass, 1>(&pass, 1)),
                           (pass.count + kWorkgroup - 1) / kWorkgroup);
         commands.submitAndWait();
         const double seconds = secondsSince(start);
         if (pass.count == most) {
             const double wanted = most * std::clamp(kDispatchSeconds / seconds, 0.25, 2.0);
-            most = std::clamp(static_cast<std::uint32_t>(wanted), kWorkgroup, device_.description().maxGroups * kWorkgroup);
+            most = std::clamp(static_cast<std::uint32_t>(wanted), kWorkgroup, denoiser_.device_.description().maxGroups * kWorkgroup);
         }
+    }
+    thread_ = 0;
+    return true;
+}
+
+void NlMeans::Work::closeBand()
+{
+    const std::vector<WeightedSum> sums = download<WeightedSum>(band_->sums, std::size_t{band_->height()} * width_);
+    const std::size_t above = std::size_t{band_->begin - band_->first} * width_, count = std::size_t{band_->end - band_->begin} * width_;
+    for (std::size_t i = above; i < above + count; ++i) {
+        result_.push_back(sums[i].radiance / sums[i].weight * scale_);
+    }
+    band_.reset();
+}
+
+bool NlMeans::Work::advance(const std::function<bool()>& shouldContinue)
+{
+    while (result_.size() < noisy_.size()) {
+        if (!band_) {
+            openBand();
+        }
+        for (; step_ <= 2 * kWindowWidth; ++step_) {
+            if (!runStep(shouldContinue)) {
+                return false;
+            }
+        }
+        closeBand();
     }
     return true;
 }
 
-// For each pixel of the band the weighted sum over its window.
-std::optional<std::vector<WeightedSum>> NlMeans::sumWindows(const Band& band, const std::vector<NoisyPixel>& noisy,
-                                                            const std::function<bool()>& shouldContinue)
-{
-    Buffer given(device_, "noisy pixels", BufferKind::Storage, noisy.size() * sizeof(NoisyPixel));
-    const Buffer pooled(device_, "pooled variance", BufferKind::Storage, noisy.size() * sizeof(glm::vec3));
-    const Buffer distances(device_, "distances of pixels", BufferKind::Storage, noisy.size() * kWindowWidth * sizeof(float));
-    const Buffer sums(device_, "sums over windows", BufferKind::Readback, noisy.size() * sizeof(WeightedSum));
-    upload(given, std::span<const NoisyPixel>(noisy));
-    Commands commands(device_);
-    commands.fillWithZero(sums);
-    commands.submitAndWait();
-    const Bindings bindings(layout_, {{kBindNoisy, &given}, {kBindPooled, &pooled}, {kBindDistances, &distances}, {kBindSums, &sums}});
-    const auto pixels = static_cast<std::uint32_t>(noisy.size());
-    const std::uint32_t strips = band.width * ((band.height() + kStripRows - 1) / kStripRows);
-    DenoisePass pass{band.width, band.height()};
-    bool goesOn = run(pool_, bindings, pass, pixels, shouldContinue);
-    for (; pass.windowRow < kWindowWidth && goesOn; ++pass.windowRow) {
-        goesOn = run(compare_, bindings, pass, pixels, shouldContinue) && run(weigh_, bindings, pass, strips, shouldContinue);
-    }
-    return goesOn ? std::optional(download<WeightedSum>(sums, noisy.size())) : std::nullopt;
-}
-
 std::optional<std::vector<glm::vec3>> NlMeans::denoise(const Film& film, const std::function<bool()>& shouldContinue)
 {
-    const std::vector<PixelMoments> pixels = shownPixels(film);
-    const float scale = scaleOf(pixels);
-    constexpr std::uint32_t kMargin = kDenoiseMargin;
-    const std::uint32_t rows = kBandPixels / film.width - 2 * kMargin;  // a picture is at most 65,535 pixels wide
-    std::vector<glm::vec3> result;
-    for (std::uint32_t begin = 0; begin < film.height; begin += rows) {
-        const std::uint32_t end = std::min(film.height, begin + rows);
-        const Band band{film.width, begin, end, begin > kMargin ? begin - kMargin : 0, std::min(film.height, end + kMargin)};
-        std::vector<NoisyPixel> noisy;
-        for (std::size_t i = std::size_t{band.first} * film.width; i < std::size_t{band.last} * film.width; ++i) {
-            noisy.push_back(noisyPixel(pixels[i], scale));
-        }
-        const auto sums = sumWindows(band, noisy, shouldContinue);
-        if (!sums) {
-            return std::nullopt;
-        }
-        for (std::size_t i = std::size_t{begin - band.first} * film.width; i < std::size_t{end - band.first} * film.width; ++i) {
-            result.push_back((*sums)[i].radiance / (*sums)[i].weight * scale);
-        }
-    }
-    return result;
+    Work work(*this, film);
+    return work.advance(shouldContinue) ? std::optional(work.takeResult()) : std::nullopt;
 }
 
 }  // namespace glim

@@ -36,22 +36,13 @@ std::optional<Denoising> FilmDenoiser::denoise(const RenderJob& options, Rendere
         return std::nullopt;
     }
     const double seconds = secondsSince(start);
-    return Denoising{*std::move(picture), options.oidn ? oidn_->name() : "non-local means", seconds};
+    return Denoising{*std::move(picture), options.oidn ? oidn_->name() : NlMeans::kName, seconds};
 }
 
 double timesToTarget(const DenoisedError& error, const ErrorTarget& target)
 {
     return error.isKnown() ? timesToTarget(target, error.relMse, relativeRoot(error.mse.value, error.mean))
                            : std::numeric_limits<double>::infinity();
-}
-
-Film showDenoised(Film film, const std::vector<glm::vec3>& radiance)
-{
-    film.splats.clear();
-    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        film.pixels[i].mean = radiance[i];
-    }
-    return film;
 }
 
 std::string denoisingText(const Denoising& denoising)

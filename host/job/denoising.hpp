@@ -38,9 +38,6 @@ private:
 // By what factor the error is above the target; at most 1: it is reached.
 double timesToTarget(const DenoisedError& error, const ErrorTarget& target);
 
-// `film` with the denoised radiance, to be shown and not to be kept: its moments are those of no samples.
-Film showDenoised(Film film, const std::vector<glm::vec3>& radiance);
-
 // Reads like ", denoised: measured RMSE 1 % [.9, 1.1] of the mean (noisy 4 %), relMSE about .001 (noisy .01)".
 std::string denoisingText(const Denoising& denoising);
 Json denoisingJson(const Denoising& denoising);

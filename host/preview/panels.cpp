@@ -26,6 +26,7 @@ constexpr HelpLine kHelp[] = {
     {"+ -", "exposure"},
     {"T", "next tone"},
     {"V", "next layer"},
+    {"N", "denoise what is left alone, or not"},
     {"click", "print what is there, and change it in the panel"},
     {"Z", "undo the last change"},
     {"Space", "pause"},
@@ -147,6 +148,13 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
             ImGui::Separator();
             ImGui::Text("estimated relMSE %.3g", figures.errors.back().relMse);
             plotErrors(figures.errors);
+        }
+        if (figures.canDenoise) {
+            ImGui::Separator();
+            ImGui::Checkbox("denoise when left alone", &choices.denoises);
+            for (const std::string& line : figures.denoising) {
+                ImGui::TextUnformatted(line.c_str());
+            }
         }
     }
     endPanel();

@@ -24,6 +24,8 @@ struct PanelFigures {
     double seconds = 0.0, samplesPerSecond = 0.0;
     std::string state;  // such as "paused"; empty while sampling
     std::vector<ErrorPoint> errors;
+    bool canDenoise = false;
+    std::vector<std::string> denoising;  // lines
     glm::uvec2 size{0};
     std::uint32_t scale = 1;  // the side of a film's pixel in pixels of the window
     std::string device;
@@ -40,6 +42,7 @@ struct PanelChoices {
     Tone tone = Tone::None;
     Aov layer = Aov::Radiance;
     std::size_t camera = 0;
+    bool denoises = true;
     SurfaceChoices surface;
     bool undo = false;
     bool operator==(const PanelChoices&) const = default;

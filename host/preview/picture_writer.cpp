@@ -1,5 +1,6 @@
 #include "host/preview/picture_writer.hpp"
 
+#include "host/denoise/nl_means.hpp"
 #include "host/error.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
@@ -23,11 +24,16 @@ std::string freeStem(const std::filesystem::path& scene)
     }
 }
 
-std::string writeBoth(const std::string& stem, const Film& film, Aov aov, const Look& look)
+std::string writeBoth(const std::string& stem, const Film& film, Aov aov, const Look& look, const std::optional<DenoisedPicture>& denoised)
 {
     try {
-        writeFilm(stem + ".exr", film);
-        writeFilmPicture(stem + ".png", film, aov, look);
+        if (denoised) {
+            writeFilm(stem + ".exr", film, {denoised->radiance, denoised->error, NlMeans::kName});
+            writeFilmPicture(stem + ".png", showDenoised(film, denoised->radiance), aov, look);
+        } else {
+            writeFilm(stem + ".exr", film);
+            writeFilmPicture(stem + ".png", film, aov, look);
+        }
     } catch (const InputError& error) {
         return error.what();
     }
@@ -36,12 +42,12 @@ std::string writeBoth(const std::string& stem, const Film& film, Aov aov, const 
 
 }  // namespace
 
-void PictureWriter::write(const std::filesystem::path& scene, Film film, Aov aov, const Look& look)
+void PictureWriter::write(const std::filesystem::path& scene, Film film, Aov aov, const Look& look, std::optional<DenoisedPicture> denoised)
 {
     if (writing_.valid()) {
         writing_.wait();
     }
-    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), aov, look);
+    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), aov, look, std::move(denoised));
 }
 
 std::optional<std::string> PictureWriter::takeReport(bool wait)

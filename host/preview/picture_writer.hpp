@@ -1,6 +1,7 @@
 // Writes pictures to files in a thread of its own.
 #pragma once
 
+#include "host/denoise/denoised_picture.hpp"
 #include "host/render/aov.hpp"
 #include "host/render/film.hpp"
 
@@ -14,8 +15,9 @@ namespace glim {
 class PictureWriter {
 public:
     // Starts to write `film` to SCENE-001.exr in the working folder, or to the next free number, and its `aov` to a PNG of the same name.
+    // With `denoised`, the PNG shows that, and the EXR has it besides.
     // Waits for earlier files, whose report is lost unless it was taken.
-    void write(const std::filesystem::path& scene, Film film, Aov aov, const Look& look);
+    void write(const std::filesystem::path& scene, Film film, Aov aov, const Look& look, std::optional<DenoisedPicture> denoised);
     // A sentence that says whether the files were written; nothing while they are being written, unless it should `wait`.
     std::optional<std::string> takeReport(bool wait);
 

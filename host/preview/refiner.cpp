@@ -12,6 +12,7 @@ namespace {
 constexpr double kPassSeconds = 0.1;
 constexpr std::uint32_t kPortion = 2;
 constexpr double kMovingSeconds = 0.03;  // aim for a coarse picture: input, picture and presenting stay below 100 ms together
+constexpr double kAloneSeconds = 1.0;    // time after the last move until the halves are kept that a denoiser needs
 constexpr double kStillSeconds = 0.15;   // time after the last move until the full size is started
 
 RenderSettings startingSettings(RenderSettings settings)
@@ -110,6 +111,15 @@ bool Refiner::refine(bool paused, const std::function<bool()>& shouldContinue)
         chooseMovingScale(seconds_);
     }
     return true;
+}
+
+bool Refiner::keepHalves()
+{
+    const bool isAlone = scale_ == 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kAloneSeconds;
+    if (isAlone) {
+        renderer_.keepHalves();
+    }
+    return isAlone;
 }
 
 bool Refiner::isDone() const { return renderer_.plan().isDone() || (settings_.seconds && scale_ == 1 && seconds() >= *settings_.seconds); }

@@ -28,6 +28,10 @@ public:
     // there is nothing to do. If `paused`, it works only while some pixel has no sample.
     bool refine(bool paused, const std::function<bool()>& shouldContinue);
 
+    // To be called while the picture is refined: keeps the halves of its samples once it has been left alone for a second. Before that they
+    // would cost copies that a user who moves has no use for. Returns whether they are kept.
+    bool keepHalves();
+
     // Whether the first picture since show() is still incomplete.
     bool isFresh() const { return fresh_; }
     // Whether every pixel has all its samples, or the time is up.

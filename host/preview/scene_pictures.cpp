@@ -49,6 +49,7 @@ bool ScenePictures::choose(Aov layer, const Camera& camera, const glm::uvec2& si
         settings.aov = Aov::BvhSteps;
         settings.bounces = 0;
         settings.adaptive = Adaptive::Off;
+        settings.halves = false;
         steps_ = std::make_unique<Refiner>(*light_, loaded_->prepared, settings);
     }
     const bool isStale = lightIsStale_ || hasMoved, leavesSteps = std::exchange(layer_, layer) == Aov::BvhSteps;

@@ -9,6 +9,7 @@
 #include "host/window/widgets.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <utility>
@@ -30,6 +31,7 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       display_(screen_.device()),
       loader_(options.scene, options.load, options.split),
       pictures_(screen_.device(), options.settings, options.lens, [this] { announceCompiling(); }),
+      denoiser_(screen_.device(), [this] { announceCompiling(); }),
       meter_(options.look)
 {
     display_.resize(std::max(1U, window.pictureSize().x), std::max(1U, window.pictureSize().y));
@@ -192,12 +194,16 @@ void Session::begin()
 {
     viewpoint_->see();
     meter_.restart();
+    denoiser_.restart();
     pacer_.begin();
 }
 
 bool Session::work()
 {
-    const bool worked = pictures_.shown().refine(paused_, [this] { return !isInputWaiting(); });
+    const auto shouldContinue = [this] { return !isInputWaiting(); };
+    const bool denoises = denoises_ && options_.settings.halves && pictures_.layer() == Aov::Radiance;
+    const bool worked =
+        (denoises && denoiser_.work(pictures_.shown(), shouldContinue)) || pictures_.shown().refine(paused_, shouldContinue);
     if (worked) {
         pacer_.change();
     }
@@ -219,17 +225,50 @@ void Session::present()
     const Clock::time_point start = Clock::now();
     if (!pictures_.isEmpty()) {
         meter_.measure(pictures_.shown(), pictures_.layer(), isInputWaiting());
-        display_.draw(pictures_.shown().renderer(), pictures_.layer(), meter_.range(), meter_.look());
+        if (const IdleDenoiser::Result* denoised = shownDenoised()) {
+            drawDenoised(*denoised);
+        } else {
+            display_.draw(pictures_.shown().renderer(), pictures_.layer(), meter_.range(), meter_.look());
+        }
     }
     buildPanels();
     buildPanels();  // ImGui lays out a frame by the sizes of the one before
-    const bool isShown = screen_.present(display_.picture());
+    const bool isShown = screen_.present(shownPicture());
     pacer_.spend(start, Clock::now());
     if (isShown) {
         pacer_.show(hasMoved());
         frames_ += pictures_.isEmpty() ? 0 : 1;
         reportShown();
     }
+}
+
+const IdleDenoiser::Result* Session::shownDenoised() const
+{
+    return denoises_ && !pictures_.isEmpty() && pictures_.layer() == Aov::Radiance ? denoiser_.result() : nullptr;
+}
+
+const StorageImage& Session::shownPicture() const
+{
+    const IdleDenoiser::Result* denoised = shownDenoised();
+    return denoised != nullptr && denoised->version == painted_ ? painter_->picture() : display_.picture();
+}
+
+void Session::drawDenoised(const IdleDenoiser::Result& denoised)
+{
+    if (!painter_) {
+        painter_.emplace(screen_.device());
+    }
+    if (std::exchange(painted_, denoised.version) != denoised.version) {
+        painter_->resize(size());
+        painter_->setValues(denoised.picture.radiance);
+    }
+    ViewPass pass{};
+    pass.right = size().x;
+    pass.bottom = size().y;
+    pass.shownAs = kShownAsColor;
+    pass.scale = static_cast<float>(std::exp2(meter_.look().exposure));
+    pass.tone = static_cast<std::uint32_t>(meter_.look().tone);
+    painter_->draw(pass);
 }
 
 void Session::reportShown()
@@ -309,6 +348,8 @@ void Session::press(char key)
         meter_.setExposure(meter_.look().exposure + (key == '+' ? kExposureStep : -kExposureStep));
     } else if (key == 'T') {
         meter_.setTone(static_cast<Tone>((static_cast<std::uint32_t>(meter_.look().tone) + 1) % 3));
+    } else if (key == 'N') {
+        denoises_ = !denoises_;
     } else if (key == ' ') {
         paused_ = !paused_;
     } else if (viewpoint_) {
@@ -367,7 +408,11 @@ void Session::chooseCamera(std::size_t index)
 
 PanelChoices Session::chosen() const
 {
-    return {meter_.look().exposure, meter_.look().tone, pictures_.layer(), viewpoint_ ? viewpoint_->index() : 0,
+    return {meter_.look().exposure,
+            meter_.look().tone,
+            pictures_.layer(),
+            viewpoint_ ? viewpoint_->index() : 0,
+            denoises_,
             surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
 }
 
@@ -395,7 +440,7 @@ void Session::announceCompiling()
     window_.setTitle("glim: " + messages_.stage + " for " + options_.scene.filename().string());
     layOutPanels(chosen());
     layOutPanels(chosen());
-    screen_.present(display_.picture());
+    screen_.present(shownPicture());
 }
 
 void Session::buildPanels()
@@ -413,6 +458,7 @@ void Session::buildPanels()
     if (wanted.camera != before.camera) {
         chooseCamera(wanted.camera);
     }
+    denoises_ = wanted.denoises;
     if (wanted.undo) {
         undo();
     } else if (surface_ && wanted.surface != before.surface) {
@@ -433,6 +479,8 @@ PanelFigures Session::figures() const
     figures.samplesPerSecond = picture.samplesPerSecond();
     figures.state = paused_ ? "paused" : picture.isDone() && picture.scale() == 1 ? "done" : "";
     figures.errors = meter_.errors();
+    figures.canDenoise = options_.settings.halves;
+    figures.denoising = denoises_ ? describe(denoiser_) : std::vector<std::string>{};
     figures.size = size();
     figures.scale = picture.scale();
     figures.device = screen_.device().description().name;
@@ -484,7 +532,9 @@ void Session::writePictures()
     }
     writes_ = false;
     meter_.expose(film, pictures_.layer());
-    writer_.write(options_.scene, std::move(film), pictures_.layer(), meter_.look());
+    const IdleDenoiser::Result* denoised = shownDenoised();
+    writer_.write(options_.scene, std::move(film), pictures_.layer(), meter_.look(),
+                  denoised ? std::optional(denoised->picture) : std::nullopt);
 }
 
 void Session::printSummary() const

@@ -3,6 +3,7 @@
 
 #include "host/clock.hpp"
 #include "host/preview/film_meter.hpp"
+#include "host/preview/idle_denoiser.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
 #include "host/preview/picture_writer.hpp"
@@ -11,6 +12,7 @@
 #include "host/preview/scene_pictures.hpp"
 #include "host/preview/viewpoint.hpp"
 #include "host/render/display.hpp"
+#include "host/render/painter.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/screen.hpp"
 
@@ -44,6 +46,9 @@ private:
     void show();
     void begin();
     bool work();
+    const IdleDenoiser::Result* shownDenoised() const;
+    const StorageImage& shownPicture() const;
+    void drawDenoised(const IdleDenoiser::Result& denoised);
     bool isPresentDue() const;
     void present();
     void reportShown();
@@ -79,6 +84,10 @@ private:
 
     ScenePictures pictures_;
     std::optional<Viewpoint> viewpoint_;  // absent until there is a scene
+    IdleDenoiser denoiser_;
+    bool denoises_ = true;
+    std::optional<Painter> painter_;  // of denoised pictures
+    std::uint64_t painted_ = 0;       // the version whose values painter_ has
     FilmMeter meter_;
     Pacer pacer_;
     PanelMessages messages_;

@@ -46,9 +46,8 @@ void FilmAccumulator::begin(Film film)
     film_ = std::move(film);
     film_.pixels.assign(settings_.pixelCount(), PixelMoments{});
     common_ = isNeighbours(settings_.adaptive) ? film_ : Film{};
-    if (settings_.halves) {
-        halves_.emplace(settings_);
-    }
+    halves_.reset();
+    keepsHalves_ = settings_.halves && !settings_.halvesLate;
     if (splatScale_) {
         splats_.emplace(settings_.pixelCount(), *splatScale_);
     }
@@ -141,6 +140,10 @@ Film FilmAccumulator::pageSoFar()
 
 void FilmAccumulator::takeHalves(std::uint32_t sample)
 {
+    const bool isFirst = sample <= FilmHalves::nextEnd(settings_.sampleBegin);
+    if (keepsHalves_ && !halves_ && (isFirst || sample % kPageSamples == 0)) {
+        halves_.emplace(settings_, isFirst ? settings_.sampleBegin : sample);
+    }
     if (halves_) {
         halves_->take(pageSoFar(), sample);
     }

@@ -20,7 +20,7 @@ public:
     const std::vector<std::unique_ptr<Tile>>& tiles() const { return tiles_; }
     const Film& folded() const { return film_; }
     std::uint64_t foldVersion() const { return foldVersion_; }
-    // Null unless the settings ask for them.
+    // Null unless the settings ask for them; if they are late, until keepHalves() was called and the next page begins.
     const FilmHalves* halves() const { return halves_ ? &*halves_ : nullptr; }
     // Of --adaptive neighbours: the samples that all pixels share, at the end of their part of a round.
     const Film& common() const { return common_; }
@@ -35,6 +35,8 @@ public:
     // Close the open blocks, which may be partial in adaptive renders and at the end, and fold all pages.
     void fold();
     void foldCommon();
+    // Of this picture, if the settings ask for halves that are late. Before there is half a block they lose no sample.
+    void keepHalves() { keepsHalves_ = settings_.halves; }
     // The samples that are not folded, which end before `sample`, into the halves, if there are any.
     void takeHalves(std::uint32_t sample);
 
@@ -67,6 +69,7 @@ private:
     std::optional<SplatSums> splats_;
     Film film_, common_;
     std::optional<FilmHalves> halves_;
+    bool keepsHalves_ = false;
     std::uint64_t foldVersion_ = 0;
 };
 

@@ -53,9 +53,9 @@ PixelMoments withoutMoments(const PixelMoments& all, const PixelMoments& part)
     return rest;
 }
 
-FilmHalves::FilmHalves(const RenderSettings& settings)
+FilmHalves::FilmHalves(const RenderSettings& settings, std::uint32_t begin)
     : films_{emptyFilm(settings), emptyFilm(settings)},
-      taken_(settings.sampleBegin)
+      taken_(begin)
 {}
 
 std::uint32_t FilmHalves::nextEnd(std::uint32_t sample)

@@ -13,7 +13,11 @@ namespace glim {
 // where Sobol points serve well.
 class FilmHalves {
 public:
-    explicit FilmHalves(const RenderSettings& settings);
+    explicit FilmHalves(const RenderSettings& settings)
+        : FilmHalves(settings, settings.sampleBegin)
+    {}
+    // `begin`: the end of a page, or the first sample of the render. The halves have what comes behind it.
+    FilmHalves(const RenderSettings& settings, std::uint32_t begin);
 
     // Whether a sweep that begins at `sample` must end here or before, to be taken: the first end of half a block behind it.
     static std::uint32_t nextEnd(std::uint32_t sample);

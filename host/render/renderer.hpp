@@ -69,6 +69,8 @@ public:
     bool advance(const std::function<bool()>& shouldContinue = nullptr);
     // The film so far; sampling may go on.
     Film film();
+    // Of this picture, from now on.
+    void keepHalves() { films_->keepHalves(); }
     PixelMoments moments(std::uint32_t pixel) { return films_->sum(pixel); }  // as in film(), but faster
 
     // What the next picture has of samples, seed and time. The other settings must be the same as before.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/clock.hpp"
-#include "host/view/painter.hpp"
+#include "host/render/painter.hpp"
 #include "host/view/view.hpp"
 #include "host/view/view_panel.hpp"
 #include "host/view/viewed_films.hpp"

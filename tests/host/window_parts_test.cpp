@@ -249,7 +249,7 @@ TEST(HelpTest, FitsTheWindowAndCoversNoMessage)
     for (const auto& help : {ofPreview, ofView}) {
         expectReadableHelp(1.0F, {512, 512}, help, 11.0F);
         expectReadableHelp(2.0F, {1024, 1024}, help, 22.0F);
-        expectReadableHelp(2.0F, {512, 512}, help, 11.0F);
+        expectReadableHelp(2.0F, {512, 512}, help, 10.0F);
         expectReadableHelp(1.0F, {1280, 720}, help, 13.0F);
     }
 }

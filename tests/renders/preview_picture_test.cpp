@@ -1,5 +1,8 @@
 // The window shows and writes what `glim render` gives.
+#include "host/preview/idle_denoiser.hpp"
 #include "host/preview/scene_pictures.hpp"
+#include "host/render/film_file.hpp"
+#include "host/render/film_pictures.hpp"
 #include "tests/support/preview_fixture.hpp"
 #include "tests/support/test_device.hpp"
 
@@ -193,6 +196,76 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     EXPECT_FALSE(sameBits(after, before));
     pictures.edit({}, std::nullopt, SplitRule::Sah);
     EXPECT_TRUE(sameBits(makeFilm(pictures), before));
+}
+
+// One second after the last move, at the latest with the second page of samples. N shows the noisy picture again, and a move ends it.
+TEST_F(PreviewTest, DenoisesWhatIsLeftAlone)
+{
+    const std::string wait = "0 samples 512\n6 ";
+    const std::vector<std::string> options{"--spp", "512"};
+    const Film plain = render("--spp 512");
+    const Pixels noisy = rendered();
+    const Pixels shown = windowAtWriting(screen, wait + "key P\n", options);
+    EXPECT_TRUE(sameBits(film(1), plain));
+    const auto denoised = readDenoised(folder / "cornell_spheres-001.exr");
+    ASSERT_TRUE(denoised);
+    Look look;
+    writeFilmPicture(folder / "denoised.png", showDenoised(plain, *denoised), Aov::Radiance, look);
+    EXPECT_EQ(picture(1), decodePng(folder / "denoised.png"));
+    EXPECT_EQ(countOthers(shown, picture(1)), 0);
+    EXPECT_GT(countOthers(picture(1), noisy), static_cast<int>(width * height / 20));
+    removePictures();
+    EXPECT_EQ(countOthers(windowAtWriting(screen, wait + "key N\n0 key P\n", options), noisy), 0);
+    EXPECT_EQ(picture(1), noisy);
+    EXPECT_FALSE(readDenoised(folder / "cornell_spheres-001.exr"));
+    removePictures();
+    run(wait + "drag left 10,10 14,10\n0 samples 1\n0 key P\n0 close\n", options);
+    EXPECT_FALSE(readDenoised(folder / "cornell_spheres-001.exr"));
+}
+
+// In pieces, it is what the denoiser makes of the same halves at once; both if these begin with the picture and if they begin late.
+TEST(IdleDenoiserTest, GivesTheDenoisedPictureOfTheHalves)
+{
+    for (const bool late : {false, true}) {
+        RenderSettings settings;
+        settings.halves = true;
+        settings.halvesLate = late;
+        settings.sampleEnd = late ? 1U << 20 : 512;
+        ScenePictures pictures(testDevice(), settings, {}, [] {});
+        enterScene(pictures, {});
+        int compiled = 0, pieces = 0;
+        IdleDenoiser denoiser(testDevice(), [&compiled] { ++compiled; });
+        std::optional<FilmHalves> halves;
+        const auto workUntil = [&](const auto& isReached) {
+            pictures.show(pictures.scene().scene.cameras.front(), {32, 24});
+            denoiser.restart();
+            EXPECT_EQ(denoiser.result(), nullptr);
+            for (const auto start = Clock::now(); !isReached() && secondsSince(start) < 60.0;) {
+                const bool worked = denoiser.isWorking();
+                int asked = 0;
+                if (denoiser.work(pictures.shown(), [&asked] { return ++asked == 1; })) {  // one dispatch
+                    ++pieces;
+                } else {
+                    pictures.shown().refine(false, nullptr);
+                }
+                if (!worked && denoiser.isWorking()) {
+                    halves = *pictures.shown().renderer().films().halves();
+                }
+            }
+        };
+        workUntil([&] { return denoiser.isWorking(); });
+        workUntil([&] { return denoiser.result() != nullptr; });
+        ASSERT_NE(denoiser.result(), nullptr) << late;
+        EXPECT_EQ(compiled, 1);
+        EXPECT_GE(pieces, 2 * (2 * kWindowWidth + 1)) << "the kernels of both halves";
+        EXPECT_EQ(denoiser.result()->samples, halves->films()[0].pixels[0].count + halves->films()[1].pixels[0].count);
+        NlMeans nlMeans(testDevice());
+        const auto atOnce = denoiseHalves(*halves, [&](const Film& film) { return nlMeans.denoise(film, [] { return true; }); });
+        ASSERT_TRUE(atOnce);
+        EXPECT_EQ(denoiser.result()->picture.radiance, atOnce->radiance);
+        EXPECT_EQ(denoiser.result()->picture.measured.mse.value, atOnce->measured.mse.value);
+        EXPECT_LT(atOnce->measured.mse.value, atOnce->measured.noisyMse);
+    }
 }
 
 // The picture of steps and that of light are of the same view, whichever layer was shown while the camera moved.
