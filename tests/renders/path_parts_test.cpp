@@ -11,11 +11,11 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kBounces = 6, kSamples = 64;
+constexpr std::uint32_t kPartBounces = 6, kPartSamples = 64;
 
 Film render(PathParts paths, std::uint32_t bounces, DirectLight direct, Schedule schedule = Schedule::Auto)
 {
-    RenderSettings settings = squareSettings(40, kSamples);
+    RenderSettings settings = squareSettings(40, kPartSamples);
     settings.bounces = bounces;
     settings.paths = paths;
     settings.course.direct = direct;
@@ -25,14 +25,15 @@ Film render(PathParts paths, std::uint32_t bounces, DirectLight direct, Schedule
 
 class PathPartsTest : public testing::TestWithParam<test::Named<DirectLight>> {};
 
-// Bit for bit where one part alone shines; elsewhere each of at most 2 kBounces + 1 additions of a sample, 32 of a block and 3 of
+// Bit for bit where one part alone shines; elsewhere each of at most 2 kPartBounces + 1 additions of a sample, 32 of a block and 3 of
 // the fold rounds by 2^-24.
 TEST_P(PathPartsTest, AddUpToAll)
 {
-    const Film all = render(PathParts::All, kBounces, GetParam().value);
-    const Film parts[] = {render(PathParts::Emission, kBounces, GetParam().value), render(PathParts::Direct, kBounces, GetParam().value),
-                          render(PathParts::Indirect, kBounces, GetParam().value)};
-    const double reach = 2.0 * (2 * kBounces + 1 + 32 + 3) * 0x1p-24;
+    const Film all = render(PathParts::All, kPartBounces, GetParam().value);
+    const Film parts[] = {render(PathParts::Emission, kPartBounces, GetParam().value),
+                          render(PathParts::Direct, kPartBounces, GetParam().value),
+                          render(PathParts::Indirect, kPartBounces, GetParam().value)};
+    const double reach = 2.0 * (2 * kPartBounces + 1 + 32 + 3) * 0x1p-24;
     int alone = 0;
     double worst = 0.0;
     for (std::size_t i = 0; i < all.pixels.size(); ++i) {
