@@ -99,8 +99,11 @@ private:
     // The pixels, [first, second) of the axis, whose centres may lie between two places of the film's plane, from -1 to 1.
     static std::pair<int, int> pixelsBetween(double low, double high)
     {
-        const auto indexOf = [](double place) { return std::clamp(std::ceil(0.5 * kSide * (place + 1.0) - 0.5), 0.0, double{kSide}); };
-        return {static_cast<int>(indexOf(low)), static_cast<int>(indexOf(std::nextafter(high, 2.0)))};
+        const auto indexOf = [](double place) {
+            const double index = std::ceil(0.5 * kSide * (place + 1.0) - 0.5);
+            return index > 0.0 ? static_cast<int>(std::min(index, double{kSide})) : 0;  // 0 too if it is NaN, as far from the camera
+        };
+        return {indexOf(low), indexOf(std::nextafter(high, 2.0))};
     }
 
     // `meet` gives the depth at which a ray meets the shape. The shape lies within the hull of `points`.

@@ -562,9 +562,9 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
     }
     Warnings warnings;
     Scene scene = read(seconds, warnings);
+    checkScene(scene);
     chooseLight(scene, seconds.has_value(), warnings);
     scene.warnings = warnings.messages();
-    checkScene(scene);
     return scene;
 }
 
