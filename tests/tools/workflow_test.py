@@ -100,7 +100,8 @@ class RecipesTest(unittest.TestCase):
 
     def test_transparent(self):
         self.run_recipe("--environment-background off")
-        self.assertEqual(self.read_start("product.png")[1:4], b"PNG")
+        start = self.read_start("product.png")
+        self.assertEqual((start[1:4], start[25]), (b"PNG", 6), "colours with alpha")
 
     def test_turntable(self):
         self.run_recipe("turn.###.png")
