@@ -119,6 +119,45 @@ TEST_F(TerminalTest, APictureHasTheSameBytesWithoutATerminal)
     }
 }
 
+// What a command comes to is the same with a terminal and without: the exit code, and what it says at the end.
+TEST_F(TerminalTest, CommandsEndAlikeWithoutATerminal)
+{
+    struct Command {
+        std::vector<std::string> arguments;
+        int exitCode;
+        const char* said;
+    };
+    const std::string cornell = sceneFile("cornell.gltf");
+    ASSERT_EQ(runGlim(call({"--spp", "64"}, "a.exr")).exitCode, 0);
+    ASSERT_EQ(runGlim(call({"--spp", "64", "--environment", "1,1,1"}, "b.exr")).exitCode, 0);
+    const Command commands[] = {
+        {{"rendr", cornell}, 2, "did you mean render?"},
+        {{"render", cornell, "--sizes", "8x8", "-o", "x.png"}, 2, "did you mean --size?"},
+        {{"render", cornell, "-o", "x.exr", "--target-rmse", "1"}, 2, "%"},
+        {{"render", cornell, "-o", "x.bmp"}, 2, ".png"},
+        {{"render", cornell, "-o", "x.png", "--size", "8x8", "--time", "200ms"}, 2, "--time"},
+        {{"render", cornell, "-o", "x.png", "--size", "8x8", "--time", ".1s"}, 0, "samples per pixel"},
+        {{"render", cornell, "-o", "x.png", "--size", "8x8", "--spp", "8"}, 0, "RMSE at most"},
+        {{"render", cornell, "-o", "x.png", "--size", "8x8"}, 0, "denoised: measured RMSE"},
+        {{"render", cornell, "-o", "x.png", "--size", "8x8", "--fov", "0"}, 2, "0.01 to 179"},
+        {{"compare", "a.exr", "b.exr", "--fail"}, 4, "differ"},
+        {{"compare", "a.exr", "a.exr", "--max-rmse", "1%"}, 0, ""},
+        {{"compare", "a.exr", "b.exr", "--max-rmse", "1%"}, 4, "1 %"},
+        {{"--help"}, 0, "render"},
+    };
+    for (const Command& command : commands) {
+        GlimCall call;
+        call.arguments = command.arguments;
+        call.folder = folder_.path();
+        const GlimRun shown = runOnTerminal(call), piped = runGlim(call);
+        const std::string both = command.arguments[0] + " ... " + command.arguments.back();
+        EXPECT_EQ(shown.exitCode, command.exitCode) << both << "\n" << shown.out;
+        EXPECT_EQ(piped.exitCode, command.exitCode) << both << "\n" << piped.err;
+        EXPECT_NE(shown.out.find(command.said), std::string::npos) << both << "\n" << shown.out;
+        EXPECT_NE((piped.out + piped.err).find(command.said), std::string::npos) << both << "\n" << piped.out << piped.err;
+    }
+}
+
 TEST_F(TerminalTest, TheBarFitsATerminalThatChangesItsSize)
 {
     bool isNarrow = false;
