@@ -15,8 +15,8 @@ struct Softbox {
     double radiance;
 };
 
-// A ball of 18 % grey has a mean radiance of .2 as the framed camera sees it. White that faces the key light has 1.4, which the neutral
-// tone holds; the framed camera sees none of the boxes directly.
+// A ball of 18 % grey has a mean radiance of .2 as the framed camera sees it. A white of .8 that faces the key light has
+// 1.4, which the neutral tone holds; the framed camera sees none of the boxes directly.
 constexpr Softbox kSoftboxes[] = {
     {-45.0, 42.0, 26.0, 22.0, 5.9},  // key
     {75.0, 20.0, 18.0, 30.0, 2.4},   // fill
