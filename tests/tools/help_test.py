@@ -90,10 +90,10 @@ class HelpTest(unittest.TestCase):
         self.assertEqual(commands(alone.stderr), commands(built))
 
     def test_glim_that_is_built_prints_its_own(self):
-        os.mkdir(os.path.join(self.root, "build"))
-        os.symlink(GLIM, os.path.join(self.root, "build", "glim"))
         for name in ("CMakeLists.txt", "CMakePresets.json", "python", "shaders", "tests"):
             os.symlink(os.path.join(ROOT, name), os.path.join(self.root, name))
+        os.mkdir(os.path.join(self.root, "build"))
+        os.symlink(GLIM, os.path.join(self.root, "build", "glim"))  # last: no link to a source is newer
         built = subprocess.run([GLIM, "render", "--help"], text=True, capture_output=True, check=True).stdout
         self.assertEqual(self.expect_help("glim", "render", "--help"), built)
         newer = os.stat(os.path.join(self.root, "build", "glim"), follow_symlinks=False).st_mtime + 10
