@@ -17,6 +17,7 @@ set(onlyInCi
     Albedos/FurnaceTest.*
     Scenes/GoldenTest.*
     Scenes/ArenaTest.*
+    Scenes/ArithmeticTest.*
     IntersectorTest.*
     Ways/PathPartsTest.*
     PathPartsTest.*
@@ -179,6 +180,7 @@ set(onlyInCi
 set(byDefault
     Scenes/CausticsTest.AgreeWithPathTracing/mirrorQuad
     Albedos/FurnaceTest.H25T2T3ClosedRoom/0
+    Scenes/ArithmeticTest.FilmsDoNotLeanOnMoreThanVulkanPromises/cornell_spheres
     Scenes/GoldenTest.AgreesWithTheLongRender/cornell_spheres
     Scenes/GoldenTest.AgreesWithTheLongRender/materials
     Scenes/GoldenTest.AgreesWithTheLongRender/textures

@@ -7,7 +7,10 @@
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-add_executable(mark_floats ${CMAKE_CURRENT_LIST_DIR}/mark_floats.cpp)
+add_executable(mark_floats ${CMAKE_CURRENT_LIST_DIR}/mark_floats.cpp ${PROJECT_SOURCE_DIR}/host/spirv/builder.cpp
+    ${PROJECT_SOURCE_DIR}/host/spirv/expand.cpp ${PROJECT_SOURCE_DIR}/host/spirv/module.cpp)
+target_include_directories(mark_floats PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(mark_floats PRIVATE SPIRV-Tools)
 
 function(glim_embed_shaders target)
     cmake_parse_arguments(ARG "" "NAMESPACE" "SOURCES" ${ARGN})

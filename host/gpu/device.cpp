@@ -4,6 +4,7 @@
 #include "host/text.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <thread>
@@ -90,10 +91,14 @@ std::string findMissing(VkPhysicalDevice physical, std::uint32_t version)
     return properties12.shaderSignedZeroInfNanPreserveFloat32 == VK_FALSE ? "shaderSignedZeroInfNanPreserveFloat32" : "";
 }
 
+// These compute on the CPU, whose divisions and roots are rounded to nearest (IEEE 754). A probe would prove nothing of the others.
+bool dividesExactly(VkDriverId driver) { return driver == VK_DRIVER_ID_MESA_LLVMPIPE || driver == VK_DRIVER_ID_GOOGLE_SWIFTSHADER; }
+
 Candidate describe(VkPhysicalDevice physical)
 {
     VkPhysicalDeviceMaintenance3Properties allocation{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
-    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &allocation};
+    VkPhysicalDeviceFloatControlsProperties floats{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES, &allocation};
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &floats};
     VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, &driver};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroup, {}};
     vkGetPhysicalDeviceProperties2(physical, &properties);
@@ -113,6 +118,8 @@ Candidate describe(VkPhysicalDevice physical)
     d.maxTexelBuffers = limits.maxPerStageDescriptorSampledImages;
     d.maxWorkgroup = limits.maxComputeWorkGroupInvocations;
     d.maxGroups = limits.maxComputeWorkGroupCount[0];
+    d.arithmetic.exact = !dividesExactly(driver.driverID);
+    d.arithmetic.declaresRounding = floats.shaderRoundingModeRTEFloat32 == VK_TRUE;
     d.missing = findMissing(physical, properties.properties.apiVersion);
     const auto family = findComputeFamily(physical);
     if (!family) {
@@ -221,6 +228,9 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
 {
     const Candidate chosen = choose(instance, choice, surface);
     description_ = chosen.description;
+    if (const char* const asked = std::getenv("GLIM_ARITHMETIC"); asked != nullptr && *asked != '\0') {
+        description_.arithmetic = parseArithmetic(description_.arithmetic, asked);
+    }
     physical_ = chosen.physical;
     queueFamily_ = chosen.queueFamily;
     if (const auto limit = addressLimit(); description_.software && limit && limit->bytes < driverAddresses()) {

@@ -1,6 +1,7 @@
 // A Vulkan device for compute, with one queue. One thread uses the queue.
 #pragma once
 
+#include "host/gpu/arithmetic.hpp"
 #include "host/gpu/instance.hpp"
 
 #include <optional>
@@ -25,6 +26,7 @@ struct DeviceDescription {
     std::uint32_t maxGroups = 0;          // workgroups of one dispatch along x
     float nanosecondsPerTick = 0.0F;      // 0: no timestamps
     std::uint64_t tickMask = 0;           // the valid bits of a timestamp, which wraps beyond them
+    Arithmetic arithmetic;                // that its kernels need
     std::string missing;                  // the first feature that glim needs and this device lacks; empty if usable
 };
 
@@ -58,6 +60,7 @@ public:
     VkDevice handle() const { return handle_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queueFamily() const { return queueFamily_; }
+    const Arithmetic& arithmetic() const { return description_.arithmetic; }
 
     // The first memory type of `allowed` (a bit mask) that has the `wanted` and the `preferred` properties, or at least the
     // `wanted` ones. `chosen` receives its properties. Throws DeviceError if there is none.

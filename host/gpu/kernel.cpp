@@ -119,7 +119,7 @@ Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const S
       pipeline_(layout.device())
 {
     const VkDevice device = layout.device().handle();
-    const std::vector<std::uint32_t> spirv = specialize(shader, specialization);
+    const std::vector<std::uint32_t> spirv = specialize(shader, specialization, layout.device().arithmetic());
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     moduleInfo.codeSize = spirv.size() * sizeof(std::uint32_t);
     moduleInfo.pCode = spirv.data();

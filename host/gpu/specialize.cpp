@@ -42,18 +42,19 @@ std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Speciali
 
 }  // namespace
 
-std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specialization& specialization)
+std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specialization& specialization, const Arithmetic& arithmetic)
 {
     static std::mutex mutex;
-    static std::map<std::pair<const std::uint32_t*, Specialization>, std::vector<std::uint32_t>> known;  // .2 s of CPU time a render
-    const std::pair key(shader.begin, specialization);
+    static std::map<std::tuple<const std::uint32_t*, Specialization, Arithmetic>, std::vector<std::uint32_t>>
+        known;  // .2 s of CPU a render
+    const std::tuple key(shader.begin, specialization, arithmetic);
     {
         const std::lock_guard lock(mutex);
         if (const auto entry = known.find(key); entry != known.end()) {
             return entry->second;
         }
     }
-    const std::vector<std::uint32_t> specialized = optimize(shader, specialization);  // several kernels at a time
+    const std::vector<std::uint32_t> specialized = computeBy(arithmetic, optimize(shader, specialization));  // several kernels at a time
     const std::lock_guard lock(mutex);
     if (known.size() >= kMaxKept) {
         known.clear();

@@ -53,16 +53,33 @@ FilmIdentity makeIdentity(const SceneIdentity& scene, const FlatCamera& camera, 
             settings.seed, kernelsFingerprint()};
 }
 
+std::vector<EmbeddedShader> filmKernels()
+{
+    return {kernels::generate_rays,
+            kernels::size_dispatch,
+            kernels::accumulate,
+            kernels::trace_paths,
+            kernels::trace_closest,
+            kernels::shade_surface,
+            kernels::trace_shadow,
+            kernels::trace_light_paths,
+            kernels::show_aov,
+            kernels::course_trace_closest,
+            kernels::course_sample_lights,
+            kernels::course_trace_shadow,
+            kernels::course_bounce,
+            kernels::course_sample_hemisphere,
+            kernels::course_trace_hemisphere,
+            kernels::course_add_luminance,
+            kernels::course_choose_pixels};
+}
+
 std::string kernelsFingerprint()
 {
     static const std::string known = [] {
         Fingerprint print;
         print.add(std::vector<std::uint64_t>{kHostVersion});
-        for (const EmbeddedShader& shader :
-             {kernels::generate_rays, kernels::size_dispatch, kernels::accumulate, kernels::trace_paths, kernels::trace_closest,
-              kernels::shade_surface, kernels::trace_shadow, kernels::trace_light_paths, kernels::show_aov, kernels::course_trace_closest,
-              kernels::course_sample_lights, kernels::course_trace_shadow, kernels::course_bounce, kernels::course_sample_hemisphere,
-              kernels::course_trace_hemisphere, kernels::course_add_luminance, kernels::course_choose_pixels}) {
+        for (const EmbeddedShader& shader : filmKernels()) {
             print.addBytes(std::as_bytes(shader.words()));
         }
         return hexadecimal(print.state());
@@ -73,9 +90,9 @@ std::string kernelsFingerprint()
 std::string arithmeticFingerprint(Device& device)
 {
     static std::mutex mutex;
-    static std::map<std::string, std::string> known;  // by device and driver
+    static std::map<std::pair<std::string, Arithmetic>, std::string> known;  // by device and driver
     const std::lock_guard lock(mutex);
-    std::string& fingerprint = known[device.description().name + ", " + device.description().driver];
+    std::string& fingerprint = known[{device.description().name + ", " + device.description().driver, device.arithmetic()}];
     if (fingerprint.empty()) {
         fingerprint = probe(device);
     }

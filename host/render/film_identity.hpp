@@ -3,6 +3,7 @@
 
 #include "host/flatten/flat_scene.hpp"
 #include "host/gpu/device.hpp"
+#include "host/gpu/embedded_shader.hpp"
 #include "host/render/film.hpp"
 #include "host/render/settings.hpp"
 
@@ -21,11 +22,13 @@ Film emptyFilm(const RenderSettings& settings);
 
 FilmIdentity makeIdentity(const SceneIdentity& scene, const FlatCamera& camera, const RenderSettings& settings);
 
-// Of the kernels that films come from.
+// The kernels that films come from.
+std::vector<EmbeddedShader> filmKernels();
+// Of these.
 std::string kernelsFingerprint();
 
-// Of what the device makes of probe_arithmetic. It is probed once per process and driver. Devices with equal fingerprints are taken to give
-// equal bits; Vulkan allows others to differ in most operations.
+// Of what the device makes of probe_arithmetic, which is made for it as all kernels are (host/gpu/arithmetic.hpp). It is probed once per
+// process, driver and arithmetic. Devices with equal fingerprints are taken to give equal bits; all that round to nearest are meant to.
 std::string arithmeticFingerprint(Device& device);
 
 }  // namespace glim

@@ -1,5 +1,5 @@
 // One thread is one input. Writes the results of those operations that kernels use and that drivers may round differently (Vulkan,
-// "Precision and Operation of SPIR-V Instructions").
+// "Precision and Operation of SPIR-V Instructions"). None is denormal, which a device may flush.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "access/arithmetic.glsl"
@@ -17,4 +17,6 @@ void main()
     probed[first + 1u] = unit / (wide + 0.37);
     probed[first + 2u] = length(vec3(unit, angle, wide));
     probed[first + 3u] = unit * angle + wide;
+    probed[first + 4u] = float(bits);  // of 32 bits
+    probed[first + 5u] = mix(angle, wide, unit);
 }

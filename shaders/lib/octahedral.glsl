@@ -14,7 +14,7 @@ const float kNormalSteps = 32767.0;
 uint encodeNormal(vec3 n)
 {
     vec2 p = n.xy * (kNormalSteps / (abs(n.x) + abs(n.y) + abs(n.z)));
-    ivec2 steps = ivec2(round(n.z >= 0.0 ? p : octahedralWrap(p, kNormalSteps)));
+    ivec2 steps = ivec2(roundEven(n.z >= 0.0 ? p : octahedralWrap(p, kNormalSteps)));
     return uint(steps.x & 0xffff) | uint(steps.y) << 16u;
 }
 

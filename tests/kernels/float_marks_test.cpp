@@ -14,7 +14,8 @@ namespace glim {
 namespace {
 
 // SPIR-V specification, sections 3.6, 3.20, 3.49.
-constexpr std::uint32_t kOpExecutionMode = 16, kOpDecorate = 71, kNoContraction = 42, kSignedZeroInfNanPreserve = 4461;
+constexpr std::uint32_t kOpExecutionMode = 16, kOpDecorate = 71, kNoContraction = 42, kSignedZeroInfNanPreserve = 4461,
+                        kRoundingModeRte = 4462;
 constexpr std::uint32_t kOpFNegate = 127, kOpFAdd = 129, kOpFSub = 131, kOpFMul = 133, kOpFDiv = 136, kOpFRem = 140, kOpFMod = 141,
                         kOpVectorTimesScalar = 142, kOpDot = 148;
 
@@ -30,7 +31,7 @@ class FloatMarksTest : public testing::TestWithParam<test::Named<const EmbeddedS
 
 struct Marks {
     std::set<std::uint32_t> marked, arithmetic;  // ids
-    bool keepsInfinity = false;
+    bool keepsInfinity = false, roundsToNearest = false;
 };
 
 Marks marksOf(std::span<const std::uint32_t> words)
@@ -43,6 +44,8 @@ Marks marksOf(std::span<const std::uint32_t> words)
         }
         marks.keepsInfinity =
             marks.keepsInfinity || (opcode == kOpExecutionMode && words[at + 2] == kSignedZeroInfNanPreserve && words[at + 3] == 32);
+        marks.roundsToNearest =
+            marks.roundsToNearest || (opcode == kOpExecutionMode && words[at + 2] == kRoundingModeRte && words[at + 3] == 32);
         if (isFloatArithmetic(opcode)) {
             marks.arithmetic.insert(words[at + 2]);
         }
@@ -59,10 +62,13 @@ TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
     for (const FeatureMask features :
          {FeatureMask{0}, kFeatureTriangleLights | kFeatureMirror, kFeaturePrincipled | kFeatureTextures, kAllFeatures}) {
         SCOPED_TRACE("features " + std::to_string(features));
-        const Marks given = marksOf(specialize(*GetParam().value, makeConstants(features)));
-        EXPECT_TRUE(given.keepsInfinity);
-        EXPECT_TRUE(std::includes(given.marked.begin(), given.marked.end(), given.arithmetic.begin(), given.arithmetic.end()));
-        EXPECT_EQ(given.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+        for (const Arithmetic& arithmetic : {Arithmetic{.exact = false}, Arithmetic{.declaresRounding = true}, Arithmetic{.adverse = 1}}) {
+            const Marks given = marksOf(specialize(*GetParam().value, makeConstants(features), arithmetic));
+            EXPECT_TRUE(given.keepsInfinity);
+            EXPECT_EQ(given.roundsToNearest, arithmetic.declaresRounding);
+            EXPECT_TRUE(std::includes(given.marked.begin(), given.marked.end(), given.arithmetic.begin(), given.arithmetic.end()));
+            EXPECT_EQ(given.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
+#include "tests/support/arithmetic_device.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,8 @@ TEST(ProbeArithmeticTest, GivesWhatTheOperationsGive)
         std::uint32_t bits = i * 747796405U + 2891336453U;
         bits ^= bits >> 16U;
         const double unit = (bits >> 8U) * 0x1p-24 + 1e-7, angle = (unit - 0.5) * 12.0, wide = unit * std::exp2(i % 31U);
-        const double expected[] = {std::sqrt(wide), unit / (wide + 0.37), std::hypot(unit, angle, wide), unit * angle + wide};
+        const double expected[] = {std::sqrt(wide),     unit / (wide + 0.37),      std::hypot(unit, angle, wide),
+                                   unit * angle + wide, static_cast<double>(bits), std::lerp(angle, wide, unit)};
         for (std::uint32_t k = 0; k < kProbedOperations; ++k) {
             EXPECT_NEAR(probed[i * kProbedOperations + k], expected[k], 2e-5 * std::max(1.0, std::abs(expected[k]))) << i << ' ' << k;
         }
@@ -39,6 +41,16 @@ TEST(ProbeArithmeticTest, GivesWhatTheOperationsGive)
     EXPECT_LT(least, 1e-3);
     EXPECT_GT(most, 0.999);
     EXPECT_EQ(arithmeticFingerprint(testDevice()).size(), 16U);
+}
+
+// The identity of a device that rounds to nearest is that of the others, whatever its own divisions are like.
+TEST(ProbeArithmeticTest, TellsDevicesApartThatGiveOtherBits)
+{
+    const std::string own = arithmeticFingerprint(testDevice());
+    for (const char* const arithmetic : {"exact", "adverse:0", "adverse:1"}) {
+        EXPECT_EQ(arithmeticFingerprint(*deviceWith(arithmetic)), own) << arithmetic;
+    }
+    EXPECT_NE(arithmeticFingerprint(*deviceWith("native,adverse:1")), own);
 }
 
 }  // namespace
