@@ -45,7 +45,8 @@ const std::map<std::string, std::set<std::string>> kStandsOn{
     {"bvh", {"scene", "shaders/shared"}},    // the depth of the traversal stack is a shared limit
     {"scene", {"image", "shaders/shared"}},  // the table of texture slots
     {"image", {}},
-    {"gpu", {}},
+    {"gpu", {"spirv"}},
+    {"spirv", {}},
     {"shaders/shared", {}},
 };
 
@@ -66,7 +67,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
     {"vulkan/", {"gpu"}},
     {"commit.h", {"job"}},
     {"version.h", {"job", "render"}},
-    {"kernels.hpp", {"render", "denoise"}},
+    {"kernels.hpp", {"render", "denoise", "gpu"}},
+    {"spirv-tools/", {"gpu", "spirv"}},
     {"nlohmann/", {"scene"}},
     {"backends/imgui", {"gpu"}},
 };
