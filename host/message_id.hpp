@@ -104,8 +104,6 @@
     ID(ToneChosen)                                                        \
     ID(ExposureChosen)                                                    \
     ID(AlphaLost)                                                         \
-    ID(ScheduleChosen)                                                    \
-    ID(ScheduleForgotten)                                                 \
     ID(BegunAnew)                                                         \
     ID(Resumed)                                                           \
     ID(OtherRounding)                                                     \

@@ -1,8 +1,9 @@
 #include "host/bench/kernel_rates.hpp"
 
 #include "host/bench/trace_timer.hpp"
+#include "host/clock.hpp"
 #include "host/render/course_rounds.hpp"
-#include "host/render/measure_schedules.hpp"
+#include "host/render/renderer.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -16,6 +17,15 @@ struct Variant {
     FeatureMask features;
     std::uint32_t stackLevels;
 };
+
+// Renders the whole picture again, from the same random numbers. Returns the seconds it took.
+double timeRender(Renderer& renderer, const FlatCamera& camera)
+{
+    renderer.restart(camera, renderer.settings().seed);
+    const auto start = Clock::now();
+    renderer.render([](const RenderProgress&) { return true; });
+    return secondsSince(start);
+}
 
 std::vector<Variant> variantsOf(const RenderSettings& settings, const FlatScene& scene, const DeviceDescription& device)
 {

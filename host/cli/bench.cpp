@@ -9,7 +9,6 @@
 #include "host/clock.hpp"
 #include "host/error.hpp"
 #include "host/flatten/camera_options.hpp"
-#include "host/job/fastest_schedule.hpp"
 #include "host/job/interrupt.hpp"
 #include "host/job/output_file.hpp"
 #include "host/job/progress.hpp"
@@ -159,7 +158,6 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
     job.settings.width = size.x;
     job.settings.height = size.y;
     job.settings.sampleEnd = std::bit_floor(maxSamples(job.settings));
-    job.settings.fastest = rememberedSchedule(device);
     checkMemory(job.prepared, job.settings, device);
     job.camera = flattenCamera(job.prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     job.bench = describeBench(options, scene, job.settings, device);

@@ -5,7 +5,6 @@
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/camera_options.hpp"
 #include "host/flatten/flatten_scene.hpp"
-#include "host/job/fastest_schedule.hpp"
 #include "host/job/interrupt.hpp"
 #include "host/job/output_file.hpp"
 #include "host/job/version.hpp"
@@ -121,10 +120,9 @@ bool measureKernels(Device& device, const BenchOptions& options, const std::stri
     const Camera camera = makeCamera(prepared.scene, options);
     const glm::uvec2 size = options.size.value_or(defaultSize(camera));
     RenderSettings settings = options.settings;
-    settings.fastest = rememberedSchedule(device.description());
     settings.width = size.x;
     settings.height = size.y;
-    settings.pathCapacity = std::max(settings.pathCapacity, size.x * size.y);
+    settings.pathCapacity = std::max(choosePathCapacity(settings, device.description()), size.x * size.y);
     checkMemory(prepared, settings, device.description());
     const FlatCamera flat = flattenCamera(prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
     const auto show = [&, printer = RoundPrinter(options.progress)](int round) {

@@ -108,7 +108,7 @@ Candidate describe(VkPhysicalDevice physical)
     d.name = properties.properties.deviceName;
     d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     d.kind = nameOfKind(properties.properties.deviceType);
-    d.software = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    d.deviceClass = classify(properties.properties.deviceType, driver.driverID);
     d.subgroupSize = subgroup.subgroupSize;
     d.memory = largestLocalHeap(physical);
     d.maxAllocation = allocation.maxMemoryAllocationSize;
@@ -233,7 +233,7 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
     }
     physical_ = chosen.physical;
     queueFamily_ = chosen.queueFamily;
-    if (const auto limit = addressLimit(); description_.software && limit && limit->bytes < driverAddresses()) {
+    if (const auto limit = addressLimit(); isSoftware(description_.deviceClass) && limit && limit->bytes < driverAddresses()) {
         throw DeviceError(MessageId::OutOfMemory,
                           {"Device \"", description_.name, "\" needs ", part::expected(std::to_string(driverAddresses() >> 20U) + " MiB"),
                            " of addresses; a limit (", part::place("ulimit -v"), ") allows the process ",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gpu/arithmetic.hpp"
+#include "host/gpu/device_class.hpp"
 #include "host/gpu/instance.hpp"
 
 #include <optional>
@@ -13,8 +14,8 @@ namespace glim {
 struct DeviceDescription {
     std::string name;
     std::string driver;
-    std::string kind;       // "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
-    bool software = false;  // runs on the CPU
+    std::string kind;  // "discrete GPU", "integrated GPU", "virtual GPU", "software", "other"
+    DeviceClass deviceClass = DeviceClass::SharedGpu;
     std::uint32_t subgroupSize = 0;
     std::uint64_t memory = 0;             // bytes of the largest device-local heap
     std::uint64_t maxAllocation = 0;      // bytes in one allocation

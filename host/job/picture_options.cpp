@@ -185,7 +185,8 @@ void addDevice(OptionTable& table, PictureOptions& options)
     table.addText("--device", "D", "Index or part of a name from `glim devices` [the first usable one]", options.device);
     addEnum(table, "--schedule", "S", "Kernel schedule: wavefront, persistent or auto, the faster one; same picture [auto]",
             {"auto", "wavefront", "persistent"}, options.settings.schedule);
-    addNumber<std::uint32_t>(table, {"--path-capacity", "N", "Paths in flight; same picture", kBlockSamples, 1U << 24U, "262144"},
+    addNumber<std::uint32_t>(table,
+                             {"--path-capacity", "N", "Paths in flight; same picture", kBlockSamples, 1U << 24U, "as suits the device"},
                              [&options](std::uint32_t paths) { options.settings.pathCapacity = paths; });
     addEnum(table, "--accelerator", "A", "Acceleration structure: bvh, or none (brute force) [bvh]", {"bvh", "none"},
             options.settings.course.accelerator);

@@ -1,7 +1,5 @@
 #include "host/job/scene_session.hpp"
 
-#include "host/job/fastest_schedule.hpp"
-
 #include <algorithm>
 
 namespace glim {
@@ -86,8 +84,6 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
 {
     if (!renderer_ || renderer_->settings().rows != settings.rows) {
         renderer_.reset();  // so that no two are on the device
-        settings.fastest =
-            fastestSchedule(device_.description(), settings, [&] { return measureSchedules(device_, prepared_.flat, camera, settings); });
         renderer_.emplace(device_, prepared_.flat, camera, settings);
     } else if (isSceneNew_) {
         renderer_->setSampling(settings);

@@ -37,12 +37,12 @@ CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene&
       settings_(makeRaySettings(settings)),
       paths_(shared.paths),
       scene_(shared.scene),
-      passSize_(scene, settings_),
+      passSize_(scene, settings_, paths_.capacity()),
       parameters_(device, scene, camera, settings_),
-      chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + settings_.pathCapacity * sizeof(ChosenPixel)),
-      kernels_(kernels && serves(kernels->specialization, specialize(scene, camera, settings_))
+      chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + paths_.capacity() * sizeof(ChosenPixel)),
+      kernels_(kernels && serves(kernels->specialization, specialize(scene, camera, settings_, device.description().deviceClass))
                    ? std::move(kernels)
-                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_))),
+                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_, device.description().deviceClass))),
       even_(bind(0)),
       odd_(bind(1))
 {

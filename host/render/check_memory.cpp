@@ -10,14 +10,14 @@ namespace glim {
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints)
 {
     const std::uint64_t pathsAtOnce = std::uint64_t{device.maxGroups} * settings.workgroup;
-    if (settings.pathCapacity > pathsAtOnce) {
+    if (settings.pathCapacity.value_or(0) > pathsAtOnce) {
         throw InputError(MessageId::DeviceLimit, {"Device \"", device.name, "\" starts at most ", part::value(std::to_string(pathsAtOnce)),
-                                                  " paths at once, expected ", part::expected(std::to_string(settings.pathCapacity)), " (",
+                                                  " paths at once, expected ", part::expected(std::to_string(*settings.pathCapacity)), " (",
                                                   part::place("--path-capacity"), ")."});
     }
     const std::uint64_t pixels = settings.pixelCount();
     const bool light = tracesLight(prepared.flat, settings);
-    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(settings.pathCapacity) +
+    const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(choosePathCapacity(settings, device)) +
                                    pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);
     // The film and what its error is estimated with; --adaptive neighbours has a second film. A checkpoint has a film, the last page and
     // the film that it shows, with --adaptive neighbours the second film too, and is copied once. Halves are two films, and two of their
@@ -39,7 +39,7 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
         }
     };
     const MessagePart machine = part::place("this machine");
-    if (device.software) {
+    if (isSoftware(device.deviceClass)) {
         refuse(onHost + onDevice, machine, machineBytes());
         if (const std::optional<AddressLimit> limit = addressLimit()) {
             const MessagePart process(MessagePart::Kind::Place, "the process, by its limit (ulimit -v),", "ulimit -v");

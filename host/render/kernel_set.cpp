@@ -45,7 +45,7 @@ Specialization makeConstants(FeatureMask features)
     return {{kSpecFeatures, static_cast<std::uint32_t>(features)}, {kSpecUpperFeatures, static_cast<std::uint32_t>(features >> 32)}};
 }
 
-Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, DeviceClass deviceClass)
 {
     Specialization constants = makeConstants(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
     constants[kSpecWorkgroup] = settings.workgroup;
@@ -57,6 +57,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecAov] = static_cast<std::uint32_t>(settings.aov);
     constants[kSpecSuspects] = settings.suspects > 0;
     constants[kSpecNotes] = settings.notes;
+    constants[kSpecPathsPerThread] = rulesOf(deviceClass).pathsPerThread;
     return constants;
 }
 
@@ -69,7 +70,7 @@ bool serves(const Specialization& compiled, Specialization needed)
 
 KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
                      Schedule schedule)
-    : specialization(specialize(scene, camera, settings))
+    : specialization(specialize(scene, camera, settings, layout.device().description().deviceClass))
 {
     const Specialization &production = specialization, ofCourse = specializeCourse(production, settings);
     std::vector<std::future<void>> compiling;

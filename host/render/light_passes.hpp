@@ -9,8 +9,8 @@ namespace glim {
 class LightPasses {
 public:
     // For scenes and settings that tracesLight() is true of.
-    LightPasses(const FlatScene& scene, const RenderSettings& settings)
-        : size_(scene, settings)
+    LightPasses(const FlatScene& scene, const RenderSettings& settings, std::uint32_t capacity)
+        : size_(scene, settings, capacity)
     {}
 
     // Starts a picture.

@@ -22,19 +22,19 @@ constexpr std::uint64_t kUsualSteps = 64;
 constexpr std::uint32_t kUnsurePaths = 1U << 17;
 constexpr double kFastDispatchSeconds = 0.005;
 
-std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings)
+std::uint32_t firstPassPaths(const FlatScene& scene, const RenderSettings& settings, std::uint32_t capacity)
 {
     const std::uint64_t refs = scene.primitiveRefs.size() / kPrimitiveRefTexels;
     const std::uint64_t steps = settings.course.accelerator == Accelerator::None ? std::max(refs, kUsualSteps) : kUsualSteps;
     const std::uint64_t work = steps * lightRounds(scene, settings).size();
-    return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, settings.pathCapacity);
+    return std::clamp(static_cast<std::uint32_t>(kFirstPassPaths * kUsualSteps / work), kBlockSamples, capacity);
 }
 
 }  // namespace
 
-PassSize::PassSize(const FlatScene& scene, const RenderSettings& settings)
-    : paths_(firstPassPaths(scene, settings)),
-      capacity_(settings.pathCapacity),
+PassSize::PassSize(const FlatScene& scene, const RenderSettings& settings, std::uint32_t capacity)
+    : paths_(firstPassPaths(scene, settings, capacity)),
+      capacity_(capacity),
       passSeconds_(settings.passSeconds)
 {}
 

@@ -13,7 +13,8 @@ struct PassSeconds {
 
 class PassSize {
 public:
-    PassSize(const FlatScene& scene, const RenderSettings& settings);
+    // `capacity`: the most paths in flight.
+    PassSize(const FlatScene& scene, const RenderSettings& settings, std::uint32_t capacity);
 
     std::uint32_t paths() const { return paths_; }
     // Reports that a pass of this many paths took `seconds`.

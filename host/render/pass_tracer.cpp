@@ -122,7 +122,7 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std
     pass.firstSample = firstSample;
     pass.sampleCount = 1;
     Recording recording(resources_.device, resources_.statistics, resources_.settings.portion, shouldContinue);
-    const std::uint32_t share = resources_.settings.workgroup * kPathsPerThread;
+    const std::uint32_t share = resources_.settings.workgroup * rulesOf(resources_.device.description().deviceClass).pathsPerThread;
     // Fills the queue that the next dispatch reads, as generate_rays does.
     recording.dispatch(*kernels().traceLightPaths, splats.bindings(1), pass, (count + share - 1) / share);
     pass.bounce = 1;

@@ -2,8 +2,11 @@
 
 #include "host/gpu/commands.hpp"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/limits.h"
 #include "shaders/shared/path_types.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 
@@ -30,6 +33,10 @@ BufferMap merged(BufferMap a, const BufferMap& b)
     return a;
 }
 
+constexpr std::uint64_t kPathBytes =
+    sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) + sizeof(FirstHit) + sizeof(ShadowRay) + 3 * sizeof(uint);
+constexpr std::uint64_t kLargestOfPath = sizeof(ShadowRay);  // in one buffer
+
 std::vector<uint> firstSlots(std::size_t count)
 {
     std::vector<uint> slots(count);
@@ -49,6 +56,18 @@ std::vector<BindingSlot> kernelSlots()
     slots.push_back({kBindSplats, BufferKind::Storage});
     slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
+}
+
+std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDescription& device)
+{
+    if (settings.pathCapacity) {
+        return *settings.pathCapacity;
+    }
+    const std::uint64_t ofLimits =
+        std::min({std::uint64_t{device.maxGroups} * settings.workgroup, device.maxTexelElements / (kLargestOfPath / 16),
+                  device.maxStorageBuffer / kLargestOfPath, device.memory / 8 / kPathBytes});
+    const std::uint64_t most = std::min<std::uint64_t>(rulesOf(device.deviceClass).pathCapacity, ofLimits);
+    return std::max(kBlockSamples, static_cast<std::uint32_t>(std::bit_floor(most)));
 }
 
 PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
@@ -83,8 +102,6 @@ void PathBuffers::emptyQueues() { upload(queueTails_, std::span<const QueueTails
 
 std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
 {
-    constexpr std::uint64_t kPathBytes = sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) + sizeof(FirstHit) +
-                                         sizeof(ShadowRay) + 3 * sizeof(uint);
     return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
 }
 

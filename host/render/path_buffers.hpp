@@ -19,10 +19,14 @@ using BufferMap = std::map<std::uint32_t, const Buffer*>;
 // The binding slots of all kernels of a pass (shaders/kernels).
 std::vector<BindingSlot> kernelSlots();
 
+// The paths in flight: as many as are asked for, or else as suit the device's class, its limits and an eighth of its memory.
+std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDescription& device);
+
 class PathBuffers {
 public:
     PathBuffers(Device& device, std::uint32_t capacity);
     static std::uint64_t sizeInBytes(std::uint32_t capacity);
+    std::uint32_t capacity() const { return static_cast<std::uint32_t>(queueA_.size() / sizeof(uint)); }
 
     // `parity` 1 swaps the active and the next queue.
     BufferMap buffers(std::uint32_t parity) const;

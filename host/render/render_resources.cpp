@@ -19,8 +19,7 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
     if (settings.schedule != Schedule::Auto) {
         return settings.schedule;
     }
-    const bool known = settings.fastest != Schedule::Auto;
-    return !course && (known ? settings.fastest == Schedule::Persistent : device.software) ? Schedule::Persistent : Schedule::Wavefront;
+    return !course && rulesOf(device.deviceClass).persistent ? Schedule::Persistent : Schedule::Wavefront;
 }
 
 RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> resources, std::shared_ptr<const CompiledKernels> kernels,
@@ -32,7 +31,7 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
       shared(std::move(resources)),
       parameters(of, scene, camera, asked),
       course(of, scene, asked),
-      compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked))
+      compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked, of.description().deviceClass))
                    ? std::move(kernels)
                    : std::make_shared<CompiledKernels>(of, scene, camera, asked, schedule))
 {
@@ -42,8 +41,8 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
 RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked,
                                  LastingResources lasting)
     : RenderResources(of,
-                      std::make_shared<SharedResources>(
-                          SharedResources{DeviceScene(of, scene, std::move(lasting.buffers)), PathBuffers(of, asked.pathCapacity)}),
+                      std::make_shared<SharedResources>(SharedResources{DeviceScene(of, scene, std::move(lasting.buffers)),
+                                                                        PathBuffers(of, choosePathCapacity(asked, of.description()))}),
                       std::move(lasting.kernels), scene, camera, asked)
 {}
 
@@ -54,13 +53,13 @@ RenderResources::RenderResources(const RenderResources& other, const FlatScene& 
 
 bool RenderResources::hasKernels(const FlatScene& scene, const FlatCamera& camera) const
 {
-    const Specialization needed = specialize(scene, camera, settings);
+    const Specialization needed = specialize(scene, camera, settings, device.description().deviceClass);
     return serves(kernels().specialization, needed) || (spare && serves(spare->set.specialization, needed));
 }
 
 void RenderResources::adapt(const FlatScene& scene, const FlatCamera& camera)
 {
-    const Specialization needed = specialize(scene, camera, settings);
+    const Specialization needed = specialize(scene, camera, settings, device.description().deviceClass);
     if (serves(kernels().specialization, needed)) {
         return;
     }

@@ -26,8 +26,7 @@ enum class DirectLight {
 
 // Which kernels trace a pass, with the same bits: one for each step of all paths, or one that traces path after path to its end
 // (pass_tracer.cpp).
-// Auto: if both can, the one known to be faster on the device. If none is known: persistent on software devices, where it was faster in
-// every scene measured, and wavefront on GPUs, none of which was measured.
+// Auto: the faster one on devices of this class (device_class.hpp), if it can.
 enum class Schedule { Auto, Wavefront, Persistent };
 
 // Light by the number of surfaces between source and camera: any, none, one, two or more.
@@ -99,12 +98,11 @@ struct RenderSettings {
 
     // How the work is cut: these change no bit of the picture.
     Schedule schedule = Schedule::Auto;
-    Schedule fastest = Schedule::Auto;      // the faster one on this device; Auto: unknown
-    std::uint32_t workgroup = 64;           // invocations
-    std::uint32_t pathCapacity = 1U << 18;  // paths in flight, at least kBlockSamples
-    std::uint32_t tilePixels = 1U << 20;    // most pixels of a tile: no buffer of the film exceeds 128 MiB, llvmpipe's limit
-    std::uint32_t portion = 64;             // dispatches between two checks whether the pass goes on
-    double passSeconds = 1.0;               // the most that a pass should take; callers wait for its end
+    std::uint32_t workgroup = 64;               // invocations
+    std::optional<std::uint32_t> pathCapacity;  // paths in flight, at least kBlockSamples; by default what suits the device
+    std::uint32_t tilePixels = 1U << 20;        // most pixels of a tile: no buffer of the film exceeds 128 MiB, llvmpipe's limit
+    std::uint32_t portion = 64;                 // dispatches between two checks whether the pass goes on
+    double passSeconds = 1.0;                   // the most that a pass should take; callers wait for its end
 
     std::uint32_t rowBegin() const { return rows ? rows->first : 0; }
     std::uint32_t rowCount() const { return rows ? rows->second - rows->first : height; }

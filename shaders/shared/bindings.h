@@ -69,21 +69,22 @@ GLIM_CONST uint kBindReport = 31u;
 GLIM_CONST uint kBindResults = 32u;
 
 GLIM_CONST uint kSpecWorkgroup = 0u;
-GLIM_CONST uint kSpecFeatures = 1u;        // kFeatureSpheres ...: what the scene needs, the lower 32 bits
-GLIM_CONST uint kSpecUpperFeatures = 2u;   // and the others
-GLIM_CONST uint kSpecSobol = 7u;           // else independent samples
-GLIM_CONST uint kSpecMollerTrumbore = 8u;  // of the course; else watertight
-GLIM_CONST uint kSpecBruteForce = 9u;      // of the course: every primitive against every ray; else the BVH
-GLIM_CONST uint kSpecDirect = 10u;         // of the course: kDirectMis ...
-GLIM_CONST uint kSpecRoulette = 11u;       // of the course: kRouletteThroughput ...
-GLIM_CONST uint kSpecLens = 12u;           // else a pinhole
-GLIM_CONST uint kSpecChosen = 13u;         // passes go over chosen pixels
-GLIM_CONST uint kSpecAov = 14u;            // kAovRadiance ...
-GLIM_CONST uint kSpecFolded = 16u;         // the host has taken pages of the film, and given them back folded
-GLIM_CONST uint kSpecSuspects = 17u;       // each pixel's brightest sample is kept
-GLIM_CONST uint kSpecNotes = 18u;          // the kernels note what they find out about the only path of a pass
-GLIM_CONST uint kSpecStackLevels = 23u;    // as many as the BVH needs
-GLIM_CONST uint kSpecTexelViews = 24u;     // as many as the textures need
+GLIM_CONST uint kSpecFeatures = 1u;         // kFeatureSpheres ...: what the scene needs, the lower 32 bits
+GLIM_CONST uint kSpecUpperFeatures = 2u;    // and the others
+GLIM_CONST uint kSpecSobol = 7u;            // else independent samples
+GLIM_CONST uint kSpecMollerTrumbore = 8u;   // of the course; else watertight
+GLIM_CONST uint kSpecBruteForce = 9u;       // of the course: every primitive against every ray; else the BVH
+GLIM_CONST uint kSpecDirect = 10u;          // of the course: kDirectMis ...
+GLIM_CONST uint kSpecRoulette = 11u;        // of the course: kRouletteThroughput ...
+GLIM_CONST uint kSpecLens = 12u;            // else a pinhole
+GLIM_CONST uint kSpecChosen = 13u;          // passes go over chosen pixels
+GLIM_CONST uint kSpecAov = 14u;             // kAovRadiance ...
+GLIM_CONST uint kSpecFolded = 16u;          // the host has taken pages of the film, and given them back folded
+GLIM_CONST uint kSpecSuspects = 17u;        // each pixel's brightest sample is kept
+GLIM_CONST uint kSpecNotes = 18u;           // the kernels note what they find out about the only path of a pass
+GLIM_CONST uint kSpecStackLevels = 23u;     // as many as the BVH needs
+GLIM_CONST uint kSpecTexelViews = 24u;      // as many as the textures need
+GLIM_CONST uint kSpecPathsPerThread = 25u;  // of the device's class
 
 // Arbitrary output variables: what a picture shows, or a display of a film.
 GLIM_CONST uint kAovRadiance = 0u;

@@ -17,11 +17,9 @@ GLIM_CONST uint kPageSamples = 256u;
 // Primitive references that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
 GLIM_CONST uint kScanPrimitiveRefs = 8192u;
 
-// A thread of trace_paths takes at most kPathsPerThread paths, one after the other. Once it has visited nodes and tested primitives
-// kStepsPerThread times, it begins no further ray. What is left goes into the next dispatch. Eight lanes of Mesa before 24 have 65,535
-// iterations together. With ten million triangles, the first dispatch after a cheap sky takes .12 s on two cores; with 4096 steps it would
-// take .35 s. 256 steps take up to a sixth longer in all.
-GLIM_CONST uint kPathsPerThread = 16u;
+// Once a thread of trace_paths has visited nodes and tested primitives kStepsPerThread times, it begins no further ray. What is left goes
+// into the next dispatch. Eight lanes of Mesa before 24 have 65,535 iterations together. With ten million triangles, the first dispatch
+// after a cheap sky takes .12 s on two cores; with 4096 steps it would take .35 s. 256 steps take up to a sixth longer in all.
 GLIM_CONST uint kStepsPerThread = 512u;
 
 // How a device rounds is told by so many inputs of so many operations (probe_arithmetic).

@@ -24,7 +24,7 @@ void check(std::uint64_t textureBytes, std::uint64_t deviceMemory, std::uint32_t
     settings.pathCapacity = pathCapacity;
     DeviceDescription device;
     device.name = "toy";
-    device.software = false;
+    device.deviceClass = DeviceClass::DiscreteGpu;
     device.memory = deviceMemory;
     device.maxGroups = 32;
     checkMemory(prepared, settings, device);

@@ -13,7 +13,7 @@
 namespace glim {
 namespace {
 
-constexpr std::uint32_t kWorkgroup = 64;
+constexpr std::uint32_t kWorkgroup = 64, kPathsPerThread = 3;
 
 struct Outcome {
     QueueSizes sizes;
@@ -25,7 +25,7 @@ struct Outcome {
 Outcome sizeDispatch(const Pass& pass, const QueueTails& tails, const RayCounts& counts)
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
-    const Kernel kernel(layout, kernels::size_dispatch, {{kSpecWorkgroup, kWorkgroup}});
+    const Kernel kernel(layout, kernels::size_dispatch, {{kSpecWorkgroup, kWorkgroup}, {kSpecPathsPerThread, kPathsPerThread}});
     PathBuffers paths(testDevice(), 1);
     Buffer tailsBuffer(testDevice(), "test's tails", BufferKind::Storage, sizeof(QueueTails));
     Buffer countsBuffer(testDevice(), "test's counts", BufferKind::Storage, sizeof(RayCounts));

@@ -1,8 +1,4 @@
-// --schedule auto on a software device, and how schedules are measured.
-#include "host/flatten/flatten_scene.hpp"
-#include "host/render/measure_schedules.hpp"
-#include "tests/support/build_scene.hpp"
-#include "tests/support/render_scene.hpp"
+// --schedule and --path-capacity.
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/test_device.hpp"
@@ -15,50 +11,23 @@ namespace {
 
 using nlohmann::json;
 
-// A busy moment had made it the wavefront for good.
-TEST(AutoScheduleTest, ASoftwareDeviceTakesThePersistentOneWhateverIsKept)
+TEST(AutoScheduleTest, IsThatOfTheDevicesClass)
 {
     const ScratchFolder folder;
-    const auto render = [&](const std::vector<std::string>& more) {
+    const auto scheduleOf = [&](const std::vector<std::string>& more) {
         GlimCall call;
-        call.arguments = {"render", sceneFile("cornell.gltf"), "-o",  "x.exr",   "--size", "64x64", "--spp",
-                          "4096",   "--target-rmse",           "90%", "--stats", "s.json"};
+        call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "16x16", "--spp", "1", "--stats", "s.json"};
         call.arguments.insert(call.arguments.end(), more.begin(), more.end());
-        call.environment["GLIM_CACHE_DIR"] = (folder / "cache").string();
         call.folder = folder.path();
         const GlimRun run = runGlim(call);
         EXPECT_EQ(run.exitCode, 0) << run.err;
-        EXPECT_EQ(run.err.find("measured"), std::string::npos) << run.err;
-        return json::parse(readFileBytes(folder / "s.json"));
+        return json::parse(readFileBytes(folder / "s.json")).at("schedule").get<std::string>();
     };
-    const json first = render({});
-    EXPECT_EQ(first.at("schedule"), "persistent");
-    EXPECT_FALSE(std::filesystem::exists(folder / "cache")) << "nothing is measured or kept";
-    const std::string device = first.at("device").at("name"), driver = first.at("device").at("driver");
-    std::filesystem::create_directories(folder / "cache");
-    const GlimRun version = runGlim({"--version"});
-    writeText(
-        folder / "cache" / "schedules.json",
-        json{{device + ", " + driver, {{"version", version.out.substr(0, version.out.find('\n'))}, {"fastest", "wavefront"}}}}.dump());
-    EXPECT_EQ(render({}).at("schedule"), "persistent");
-    EXPECT_EQ(render({"--schedule", "wavefront"}).at("schedule"), "wavefront");
-    EXPECT_EQ(render({"--accelerator", "none"}).at("schedule"), "wavefront");
-}
-
-TEST(AutoScheduleTest, RatesAreThoseOfTheDevicesClock)
-{
-    const Scene scene = mixedScene();
-    RenderSettings settings = squareSettings(64, 4096);
-    settings.schedule = Schedule::Auto;
-    const ScheduleRates rates = measureSchedules(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
-    ASSERT_EQ(rates.wavefront.size(), 5U);
-    ASSERT_EQ(rates.persistent.size(), 5U);
-    for (const std::vector<double>* each : {&rates.wavefront, &rates.persistent}) {
-        for (const double rate : *each) {
-            EXPECT_GT(rate, 1e3);
-            EXPECT_LT(rate, 1e12);
-        }
-    }
+    const bool persistent = rulesOf(testDevice().description().deviceClass).persistent;
+    EXPECT_EQ(scheduleOf({}), persistent ? "persistent" : "wavefront");
+    EXPECT_EQ(scheduleOf({"--schedule", "persistent"}), "persistent");
+    EXPECT_EQ(scheduleOf({"--schedule", "wavefront"}), "wavefront");
+    EXPECT_EQ(scheduleOf({"--accelerator", "none"}), "wavefront");
 }
 
 // In a scene whose caustics are by light paths. 2097152 is beyond the default.

@@ -158,8 +158,8 @@ TEST(PersistentTest, PathsAreReplayedByTheWavefront)
 TEST(ScheduleChoiceTest, AutoIsTheFasterOneWhereThatCan)
 {
     DeviceDescription software, other;
-    software.software = true;
-    other.software = false;
+    software.deviceClass = DeviceClass::Llvmpipe;
+    other.deviceClass = DeviceClass::DiscreteGpu;
     RenderSettings settings;
     settings.schedule = Schedule::Auto;
     EXPECT_EQ(chooseSchedule(settings, software), Schedule::Persistent);
@@ -169,15 +169,9 @@ TEST(ScheduleChoiceTest, AutoIsTheFasterOneWhereThatCan)
                                  std::function([](RenderSettings& s) { s.course.direct = DirectLight::Bsdf; }),
                                  std::function([](RenderSettings& s) { s.course.roulette = Roulette::None; })}) {
         RenderSettings course = settings;
-        course.fastest = Schedule::Persistent;
         ofCourse(course);
         EXPECT_EQ(chooseSchedule(course, software), Schedule::Wavefront);
     }
-    settings = {};
-    settings.fastest = Schedule::Wavefront;
-    EXPECT_EQ(chooseSchedule(settings, software), Schedule::Wavefront);
-    settings.fastest = Schedule::Persistent;
-    EXPECT_EQ(chooseSchedule(settings, other), Schedule::Persistent);
     for (const Schedule asked : {Schedule::Wavefront, Schedule::Persistent}) {
         settings.schedule = asked;
         EXPECT_EQ(chooseSchedule(settings, software), asked);

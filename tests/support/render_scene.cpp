@@ -4,7 +4,6 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/start_media.hpp"
 #include "host/measure/confidence.hpp"
-#include "host/render/measure_schedules.hpp"
 #include "shaders/shared/limits.h"
 #include "tests/support/test_device.hpp"
 
@@ -60,7 +59,7 @@ float aspectOf(const RenderSettings& settings) { return static_cast<float>(setti
 
 Film renderBySchedules(const FlatScene& flat, const FlatCamera& flatCamera, const RenderSettings& settings)
 {
-    if (!canMeasureSchedules(settings) || settings.seconds) {
+    if (settings.schedule != Schedule::Auto || usesCourseEstimators(settings) || settings.seconds) {
         return renderBy(settings.schedule, flat, flatCamera, settings);
     }
     RenderSettings first = settings;

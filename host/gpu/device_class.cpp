@@ -1,0 +1,27 @@
+#include "host/gpu/device_class.hpp"
+
+#include <cstddef>
+
+namespace glim {
+
+DeviceClass classify(VkPhysicalDeviceType type, VkDriverId driver)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return driver == VK_DRIVER_ID_MESA_LLVMPIPE ? DeviceClass::Llvmpipe : DeviceClass::Software;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return DeviceClass::DiscreteGpu;
+    default: return DeviceClass::SharedGpu;
+    }
+}
+
+const ClassRules& rulesOf(DeviceClass deviceClass)
+{
+    static constexpr ClassRules kRules[] = {
+        {.persistent = true, .pathCapacity = 1U << 18, .pathsPerThread = 16},
+        {.persistent = false, .pathCapacity = 1U << 18, .pathsPerThread = 16},
+        {.persistent = false, .pathCapacity = 1U << 20, .pathsPerThread = 2},
+        {.persistent = false, .pathCapacity = 1U << 22, .pathsPerThread = 1},
+    };
+    return kRules[static_cast<std::size_t>(deviceClass)];
+}
+
+}  // namespace glim

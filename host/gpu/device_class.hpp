@@ -1,0 +1,35 @@
+// The classes of devices, and what each changes: speed, and no bit of a picture.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+
+namespace glim {
+
+enum class DeviceClass {
+    Llvmpipe,     // Mesa's software driver: lanes of a CPU's vectors, and few threads
+    Software,     // other software drivers
+    SharedGpu,    // GPUs that share the host's memory: integrated ones; also virtual and unknown ones, of which little is known
+    DiscreteGpu,  // GPUs with memory of their own
+};
+
+struct ClassRules {
+    // The schedule of --schedule auto: the persistent one, or else the wavefront. llvmpipe was faster with the persistent one in every
+    // scene measured (tests/bench/README.md), an H100 with the wavefront (tests/bench/GPU.md). SwiftShader takes more than ten minutes to
+    // compile trace_paths.
+    bool persistent;
+    // Paths in flight, unless the device has less room. An H100 holds 270,336 threads, and was 6.6 to 7 times as fast with 2^22 as with
+    // 2^18. A CPU needs only what fills its vectors.
+    std::uint32_t pathCapacity;
+    // Paths that a thread of trace_paths and trace_light_paths takes, one after the other. On a CPU it spares starting threads; on a GPU it
+    // leaves threads without work.
+    std::uint32_t pathsPerThread;
+};
+
+DeviceClass classify(VkPhysicalDeviceType type, VkDriverId driver);
+const ClassRules& rulesOf(DeviceClass deviceClass);
+// Whether it runs on the CPU.
+inline bool isSoftware(DeviceClass deviceClass) { return deviceClass == DeviceClass::Llvmpipe || deviceClass == DeviceClass::Software; }
+
+}  // namespace glim

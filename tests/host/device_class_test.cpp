@@ -1,0 +1,75 @@
+// What a device's class changes: the schedule, and how many paths are in flight.
+#include "host/gpu/device_class.hpp"
+
+#include "host/render/path_buffers.hpp"
+#include "shaders/shared/limits.h"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+TEST(DeviceClassTest, FollowsFromTypeAndDriver)
+{
+    const auto of = [](VkPhysicalDeviceType type, VkDriverId driver) { return classify(type, driver); };
+    EXPECT_EQ(of(VK_PHYSICAL_DEVICE_TYPE_CPU, VK_DRIVER_ID_MESA_LLVMPIPE), DeviceClass::Llvmpipe);
+    EXPECT_EQ(of(VK_PHYSICAL_DEVICE_TYPE_CPU, VK_DRIVER_ID_GOOGLE_SWIFTSHADER), DeviceClass::Software);
+    EXPECT_EQ(of(VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_DRIVER_ID_NVIDIA_PROPRIETARY), DeviceClass::DiscreteGpu);
+    EXPECT_EQ(of(VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU, VK_DRIVER_ID_MESA_RADV), DeviceClass::SharedGpu);
+    EXPECT_EQ(of(VK_PHYSICAL_DEVICE_TYPE_OTHER, VK_DRIVER_ID_MESA_RADV), DeviceClass::SharedGpu);
+}
+
+TEST(DeviceClassTest, OnlyOnLlvmpipeOneKernelIsFaster)
+{
+    EXPECT_TRUE(rulesOf(DeviceClass::Llvmpipe).persistent);
+    for (const DeviceClass other : {DeviceClass::Software, DeviceClass::SharedGpu, DeviceClass::DiscreteGpu}) {
+        EXPECT_FALSE(rulesOf(other).persistent);
+    }
+}
+
+DeviceDescription roomy(DeviceClass deviceClass)
+{
+    DeviceDescription device;
+    device.deviceClass = deviceClass;
+    device.memory = std::uint64_t{80} << 30U;
+    device.maxStorageBuffer = std::uint64_t{4} << 30U;
+    device.maxTexelElements = std::uint64_t{1} << 27U;
+    device.maxGroups = 0x7fffffffU;
+    return device;
+}
+
+TEST(PathCapacityChoiceTest, IsThatOfTheClass)
+{
+    const auto of = [](DeviceClass deviceClass) { return choosePathCapacity({}, roomy(deviceClass)); };
+    EXPECT_EQ(of(DeviceClass::Llvmpipe), 1U << 18U);
+    EXPECT_EQ(of(DeviceClass::Software), 1U << 18U);
+    EXPECT_EQ(of(DeviceClass::SharedGpu), 1U << 20U);
+    EXPECT_EQ(of(DeviceClass::DiscreteGpu), 1U << 22U);
+}
+
+// Each bound alone, with a power of two of paths.
+TEST(PathCapacityChoiceTest, IsBoundedByWhatTheDeviceHas)
+{
+    const auto chosen = [](auto&& change) {
+        DeviceDescription device = roomy(DeviceClass::DiscreteGpu);
+        change(device);
+        const std::uint32_t paths = choosePathCapacity({}, device);
+        EXPECT_LE(PathBuffers::sizeInBytes(paths), std::max(device.memory / 8, PathBuffers::sizeInBytes(kBlockSamples)));
+        return paths;
+    };
+    EXPECT_EQ(chosen([](DeviceDescription& d) { d.memory = std::uint64_t{4} << 30U; }), 1U << 21U);
+    EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxStorageBuffer = 128U << 20U; }), 1U << 21U);
+    EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxTexelElements = 65536; }), 1U << 14U);
+    EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxGroups = 65535; }), 1U << 21U);
+    EXPECT_EQ(chosen([](DeviceDescription& d) { d.memory = 1; }), kBlockSamples);
+}
+
+TEST(PathCapacityChoiceTest, IsWhatIsAskedFor)
+{
+    RenderSettings settings;
+    settings.pathCapacity = 12345;
+    EXPECT_EQ(choosePathCapacity(settings, roomy(DeviceClass::DiscreteGpu)), 12345U);
+}
+
+}  // namespace
+}  // namespace glim
