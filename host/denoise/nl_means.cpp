@@ -58,7 +58,7 @@ NlMeans::NlMeans(Device& device)
               {{kBindNoisy, BufferKind::Storage},
                {kBindPooled, BufferKind::Storage},
                {kBindDistances, BufferKind::Storage},
-               {kBindSums, BufferKind::Readback}},
+               {kBindSums, BufferKind::Storage}},
               sizeof(DenoisePass)),
       pool_(layout_, kernels::pool_variance, {{kSpecWorkgroup, kWorkgroup}}),
       compare_(layout_, kernels::compare_pixels, {{kSpecWorkgroup, kWorkgroup}}),
@@ -88,7 +88,7 @@ void NlMeans::Work::openBand()
     Buffer given(device, "noisy pixels", BufferKind::Storage, count * sizeof(NoisyPixel));
     Buffer pooled(device, "pooled variance", BufferKind::Storage, count * sizeof(glm::vec3));
     Buffer distances(device, "distances of pixels", BufferKind::Storage, count * kWindowWidth * sizeof(float));
-    Buffer sums(device, "sums over windows", BufferKind::Readback, count * sizeof(WeightedSum));
+    Buffer sums(device, "sums over windows", BufferKind::Storage, count * sizeof(WeightedSum));
     upload(given, std::span<const NoisyPixel>(noisy_).subspan(std::size_t{first} * width_, count));
     Commands commands(device);
     commands.fillWithZero(sums);

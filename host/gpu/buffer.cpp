@@ -43,39 +43,6 @@ void refuseTooLarge(const DeviceDescription& device, const std::string& name, Bu
     }
 }
 
-// A buffer in host memory, for copies to and from memory that the host does not map.
-class Staging {
-public:
-    Staging(const Device& device, std::uint64_t size)
-        : memory_(device),
-          handle_(device)
-    {
-        VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-        info.size = size;
-        info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-        check(vkCreateBuffer(device.handle(), &info, nullptr, handle_.receive()), "create a staging buffer");
-        VkMemoryRequirements needs;
-        vkGetBufferMemoryRequirements(device.handle(), handle_.get(), &needs);
-        VkMemoryPropertyFlags have = 0;
-        VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-        allocation.allocationSize = needs.size;
-        allocation.memoryTypeIndex =
-            device.findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &have);
-        check(vkAllocateMemory(device.handle(), &allocation, nullptr, memory_.receive()), "allocate a staging buffer");
-        check(vkBindBufferMemory(device.handle(), handle_.get(), memory_.get(), 0), "bind a staging buffer");
-        check(vkMapMemory(device.handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "map a staging buffer");
-    }
-
-    VkBuffer handle() const { return handle_.get(); }
-    void* mapped() const { return mapped_; }
-
-private:
-    Owned<VkDeviceMemory, vkFreeMemory> memory_;  // outlives the buffer
-    Owned<VkBuffer, vkDestroyBuffer> handle_;
-    void* mapped_ = nullptr;
-};
-
 }  // namespace
 
 Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
@@ -106,17 +73,14 @@ void Buffer::allocate(const std::string& name)
 {
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_->handle(), handle_.get(), &needs);
-    const VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     // Device memory that is also host-cached is memory that both share. A discrete GPU may also expose some of its own memory to the
     // host, but that is small (256 MiB) or slow to read, and stays unmapped.
-    const VkMemoryPropertyFlags shared = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    const bool readback = kind_ == BufferKind::Readback;
+    const VkMemoryPropertyFlags shared = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     VkMemoryPropertyFlags have = 0;
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocation.allocationSize = needs.size;
-    allocation.memoryTypeIndex =
-        device_->findMemoryType(needs.memoryTypeBits, readback ? host : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
-                                readback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : shared, &have);
+    allocation.memoryTypeIndex = device_->findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, shared, &have);
     const bool mappable = device_->memoryPolicy() == MemoryPolicy::MapShared && (have & shared) == shared;
     const VkResult result = memory_.allocate(allocation);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
@@ -126,10 +90,12 @@ void Buffer::allocate(const std::string& name)
     }
     check(result, "allocate the " + name);
     check(vkBindBufferMemory(device_->handle(), handle_.get(), memory_.get(), 0), "bind the memory of the " + name);
-    if (readback || mappable) {
+    if (mappable) {
         void* mapped = nullptr;
         check(vkMapMemory(device_->handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "map the " + name);
         mapped_ = static_cast<std::byte*>(mapped);
+    } else if (kind_ == BufferKind::Readback) {
+        hostCopy_ = std::make_unique<HostCopy>(device_->reused(), *device_, handle_.get(), size_);
     }
 }
 
@@ -143,7 +109,7 @@ void Buffer::upload(std::span<const std::byte> bytes)
         std::memcpy(mapped_, bytes.data(), bytes.size());
         return;
     }
-    const Staging staging(*device_, std::min<std::uint64_t>(bytes.size(), kStagingBytes));
+    const HostBuffer& staging = device_->reused().staging();
     for (std::uint64_t offset = 0; offset < bytes.size(); offset += kStagingBytes) {
         const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
         std::memcpy(staging.mapped(), bytes.data() + offset, count);
@@ -163,7 +129,11 @@ void Buffer::download(std::span<std::byte> bytes) const
         std::memcpy(bytes.data(), mapped_, bytes.size());
         return;
     }
-    const Staging staging(*device_, std::min<std::uint64_t>(bytes.size(), kStagingBytes));
+    if (hostCopy_) {
+        std::memcpy(bytes.data(), hostCopy_->mapped(), bytes.size());
+        return;
+    }
+    const HostBuffer& staging = device_->reused().staging();
     for (std::uint64_t offset = 0; offset < bytes.size(); offset += kStagingBytes) {
         const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
         Commands commands(*device_);

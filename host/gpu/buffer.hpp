@@ -1,7 +1,7 @@
 // A buffer in device memory, and the copies between it and the host.
 #pragma once
 
-#include "host/gpu/owned.hpp"
+#include "host/gpu/reused.hpp"
 
 #include <cstring>
 #include <span>
@@ -15,7 +15,7 @@ enum class BufferKind {
     Texel8,    // as texels of 8 bytes (uvec2)
     Texel4,    // as texels of 4 bytes, each one number (uvec4 of bytes)
     Both,      // as Storage, and as texels at another binding
-    Readback,  // as Storage, and cheap for the host to read
+    Readback,  // as Storage, but small: the host has a copy, which each submission brings up to date
 };
 
 constexpr bool hasTexels(BufferKind kind) { return kind != BufferKind::Storage && kind != BufferKind::Readback; }
@@ -23,9 +23,6 @@ constexpr bool hasStorage(BufferKind kind)
 {
     return kind == BufferKind::Storage || kind == BufferKind::Both || kind == BufferKind::Readback;
 }
-
-// The size of a staging buffer in bytes. A longer copy is made in parts, so that a large scene needs little host memory beside its own.
-inline constexpr std::uint64_t kStagingBytes = std::uint64_t{16} << 20;
 
 class Buffer {
 public:
@@ -53,6 +50,7 @@ private:
     Owned<VkBuffer, vkDestroyBuffer> handle_;
     Owned<VkBufferView, vkDestroyBufferView> view_;
     std::byte* mapped_ = nullptr;  // null if host copies are staged
+    std::unique_ptr<HostCopy> hostCopy_;
 };
 
 template <class T>

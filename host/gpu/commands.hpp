@@ -14,6 +14,9 @@ struct KernelTime {
 class Commands {
 public:
     explicit Commands(const Device& device);
+    ~Commands();
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
 
     // `push` holds the first of the layout's push constants, as many as the kernel reads; `groups` workgroups along x.
     void dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups);
@@ -32,14 +35,15 @@ public:
     template <class Write>
     void record(Write&& write)
     {
-        write(buffer_);
+        write(submission_->buffer);
     }
 
     // Runs all commands and waits for their end. It may be called once. `done`, if given, is signalled too. Throws DeviceError if
     // the device fails or the validation layers have printed a message.
     void submitAndWait(VkSemaphore done = VK_NULL_HANDLE);
 
-    // The device time of each dispatch, in their order; empty if the device has no timestamps. To be called after submitAndWait.
+    // The device time of each dispatch, in their order, kMaxTimed at most; empty if the device has no timestamps. To be called after
+    // submitAndWait.
     std::vector<KernelTime> times() const;
 
 private:
@@ -48,15 +52,13 @@ private:
     void barrier();
     void transition(VkImage image, VkImageLayout from, VkImageLayout to);
 
-    // The most dispatches that are timed.
-    static constexpr std::uint32_t kMaxTimed = 1024;
+    void copyToHost();
+    bool isTimed() const { return submission_->queries.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed; }
 
     const Device& device_;
-    Owned<VkCommandPool, vkDestroyCommandPool> pool_;
-    VkCommandBuffer buffer_ = VK_NULL_HANDLE;  // of the pool
-    Owned<VkFence, vkDestroyFence> fence_;
-    Owned<VkQueryPool, vkDestroyQueryPool> queries_;  // none if the device has no timestamps
-    std::vector<std::string> timed_;                  // kernel names, one per timed dispatch
+    std::unique_ptr<Submission> submission_;
+    bool ended_ = false;              // on the device
+    std::vector<std::string> timed_;  // kernel names, one per timed dispatch
 };
 
 }  // namespace glim

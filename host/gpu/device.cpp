@@ -1,5 +1,6 @@
 #include "host/gpu/device.hpp"
 
+#include "host/gpu/reused.hpp"
 #include "host/memory.hpp"
 #include "host/text.hpp"
 
@@ -258,26 +259,40 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
     vkGetDeviceQueue(handle_, queueFamily_, 0, &queue_);
     setObjectName_ =
         reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(vkGetInstanceProcAddr(instance.handle(), "vkSetDebugUtilsObjectNameEXT"));
+    reused_ = std::make_unique<Reused>(*this);
 }
 
-Device::~Device() { vkDestroyDevice(handle_, nullptr); }
+Device::~Device()
+{
+    reused_.reset();
+    vkDestroyDevice(handle_, nullptr);
+}
+
+std::optional<std::uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
+                                            VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred)
+{
+    for (const VkMemoryPropertyFlags flags : {wanted | preferred, wanted}) {
+        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+            if ((allowed >> i & 1U) != 0 && (memory.memoryTypes[i].propertyFlags & flags) == flags) {
+                return i;
+            }
+        }
+    }
+    return {};
+}
 
 std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
                                      VkMemoryPropertyFlags* chosen) const
 {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
-    for (const VkMemoryPropertyFlags flags : {wanted | preferred, wanted}) {
-        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-            const VkMemoryPropertyFlags have = memory.memoryTypes[i].propertyFlags;
-            if ((allowed >> i & 1U) != 0 && (have & flags) == flags) {
-                *chosen = have;
-                return i;
-            }
-        }
+    const std::optional<std::uint32_t> found = glim::findMemoryType(memory, allowed, wanted, preferred);
+    if (!found) {
+        throw DeviceError(MessageId::DeviceLacks, {"Device ", part::quoted(description_.name), " has no ",
+                                                   part::expected("memory with the properties that a buffer needs"), "."});
     }
-    throw DeviceError(MessageId::DeviceLacks, {"Device ", part::quoted(description_.name), " has no ",
-                                               part::expected("memory with the properties that a buffer needs"), "."});
+    *chosen = memory.memoryTypes[*found].propertyFlags;
+    return *found;
 }
 
 void Device::addMemory(std::int64_t bytes)

@@ -5,6 +5,7 @@
 #include "host/gpu/device_class.hpp"
 #include "host/gpu/instance.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,14 @@ std::vector<DeviceDescription> listDevices(const VulkanInstance& instance);
 // How the host reaches the buffers of a device.
 enum class MemoryPolicy {
     MapShared,    // maps memory that device and host share (software devices, integrated GPUs) and stages the rest
-    AlwaysStage,  // stages all but readback buffers, as a discrete GPU needs it: tests run those copies on a software device
+    AlwaysStage,  // stages all, as a discrete GPU needs it: tests run those copies on a software device
 };
+
+class Reused;
+
+// The first memory type of `allowed` (a bit mask) that has the `wanted` and the `preferred` properties, or at least the `wanted` ones.
+std::optional<std::uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
+                                            VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred);
 
 class Device {
 public:
@@ -63,10 +70,12 @@ public:
     std::uint32_t queueFamily() const { return queueFamily_; }
     const Arithmetic& arithmetic() const { return description_.arithmetic; }
 
-    // The first memory type of `allowed` (a bit mask) that has the `wanted` and the `preferred` properties, or at least the
-    // `wanted` ones. `chosen` receives its properties. Throws DeviceError if there is none.
+    // As findMemoryType below. `chosen` receives the properties. Throws DeviceError if there is none.
     std::uint32_t findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
                                  VkMemoryPropertyFlags* chosen) const;
+
+    // What submissions leave to the next ones (reused.hpp).
+    Reused& reused() const { return *reused_; }
 
     // Adds to the bytes of device memory in use. Buffers and images call it, with negative bytes when they free memory.
     void addMemory(std::int64_t bytes);
@@ -85,6 +94,7 @@ private:
     MemoryPolicy memoryPolicy_;
     std::uint64_t memory_ = 0, peakMemory_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
+    std::unique_ptr<Reused> reused_;
 };
 
 }  // namespace glim

@@ -24,7 +24,7 @@ SplatBuffer::SplatBuffer(Device& device, const KernelLayout& layout, const Buffe
                          std::uint32_t count)
     : device_(device),
       count_(count),
-      splats_(device, "picture's splats", BufferKind::Readback, count * sizeof(Splat))
+      splats_(device, "picture's splats", BufferKind::Storage, count * sizeof(Splat))
 {
     const BufferMap fixed = joined(constants, {{kBindSplats, &splats_}});
     even_.emplace(layout, joined(fixed, paths.buffers(0)));

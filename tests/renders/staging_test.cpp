@@ -37,13 +37,33 @@ protected:
     Device device{instance, std::nullopt, VK_NULL_HANDLE, MemoryPolicy::AlwaysStage};
 };
 
-TEST_F(StagingTest, OnlyReadbackMemoryIsMapped)
+TEST_F(StagingTest, NoMemoryOfKernelsIsMapped)
 {
-    for (const BufferKind kind : {BufferKind::Storage, BufferKind::Texel, BufferKind::Both}) {
+    for (const BufferKind kind : {BufferKind::Storage, BufferKind::Texel, BufferKind::Both, BufferKind::Readback}) {
         EXPECT_FALSE(Buffer(device, "test's bytes", kind, 64).isMapped());
         EXPECT_TRUE(Buffer(testDevice(), "test's bytes", kind, 64).isMapped() || !isSoftware(testDevice().description().deviceClass));
     }
-    EXPECT_TRUE(Buffer(device, "test's bytes", BufferKind::Readback, 64).isMapped());
+}
+
+// Whatever is submitted, and also after the buffer has moved or another one has gone.
+TEST_F(StagingTest, EachSubmissionCopiesReadbackBuffersToTheHost)
+{
+    const auto readback = [&](std::uint64_t seed) {
+        Buffer buffer(device, "test's bytes", BufferKind::Readback, 64);
+        buffer.upload(makeBytes(64, seed));
+        return buffer;
+    };
+    Buffer a = readback(1);
+    {
+        const Buffer gone = readback(2);
+        EXPECT_TRUE(download<std::byte>(gone, 64) == makeBytes(64, 2));
+    }
+    const Buffer b = readback(3), moved = std::move(a);
+    EXPECT_TRUE(download<std::byte>(moved, 64) == makeBytes(64, 1));
+    Commands commands(device);
+    commands.copy(b.handle(), 0, moved.handle(), 64);
+    commands.submitAndWait();
+    EXPECT_TRUE(download<std::byte>(moved, 64) == makeBytes(64, 3));
 }
 
 TEST_F(StagingTest, BytesComeBack)

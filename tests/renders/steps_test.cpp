@@ -150,7 +150,7 @@ std::vector<Rgb8> shownBy(Display& display)
     const KernelLayout layout(testDevice(), {{kBindResults, BufferKind::Storage}}, 2 * sizeof(uint), {kBindPicture});
     const Kernel kernel(layout, test_kernels::read_picture, {{kSpecWorkgroup, 64}});
     const uint size[] = {display.width(), display.height()};
-    Buffer pixels(testDevice(), "test's pixels", BufferKind::Readback, std::uint64_t{4} * size[0] * size[1]);
+    Buffer pixels(testDevice(), "test's pixels", BufferKind::Storage, std::uint64_t{4} * size[0] * size[1]);
     const Bindings bindings(layout, {{kBindResults, &pixels}}, {{kBindPicture, &display.picture()}});
     Commands commands(testDevice());
     commands.dispatch(kernel, bindings, std::as_bytes(std::span(size)), (size[0] * size[1] + 63) / 64);
