@@ -81,7 +81,7 @@ void Buffer::allocate(const std::string& name)
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocation.allocationSize = needs.size;
     allocation.memoryTypeIndex = device_->findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, shared, &have);
-    const bool mappable = device_->memoryPolicy() == MemoryPolicy::MapShared && (have & shared) == shared;
+    const bool mappable = device_->mapsShared() && (have & shared) == shared;
     const VkResult result = memory_.allocate(allocation);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
         throw DeviceError(MessageId::OutOfMemory, {"The ", part::place(name), " need ", part::value(megabytes(needs.size)),

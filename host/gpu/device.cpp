@@ -223,12 +223,14 @@ std::vector<DeviceDescription> listDevices(const VulkanInstance& instance)
 // Measured on two cores (2026-11-25, Mesa 22.3.6): 1,045 MiB.
 std::uint64_t driverAddresses() { return (832 + 128 * std::uint64_t{std::thread::hardware_concurrency()}) << 20U; }
 
-Device::Device(const VulkanInstance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface, MemoryPolicy memoryPolicy)
+Device::Device(const VulkanInstance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface,
+               std::optional<DeviceClass> as)
     : instance_(instance),
-      memoryPolicy_(memoryPolicy)
+      mapsShared_(as != DeviceClass::DiscreteGpu)
 {
     const Candidate chosen = choose(instance, choice, surface);
     description_ = chosen.description;
+    description_.deviceClass = as.value_or(description_.deviceClass);
     if (const char* const asked = std::getenv("GLIM_ARITHMETIC"); asked != nullptr && *asked != '\0') {
         description_.arithmetic = parseArithmetic(description_.arithmetic, asked);
     }

@@ -38,12 +38,6 @@ std::uint64_t driverAddresses();
 // All devices that Vulkan shows, best first: discrete, integrated, virtual, other, software. Vulkan's order decides within a kind.
 std::vector<DeviceDescription> listDevices(const VulkanInstance& instance);
 
-// How the host reaches the buffers of a device.
-enum class MemoryPolicy {
-    MapShared,    // maps memory that device and host share (software devices, integrated GPUs) and stages the rest
-    AlwaysStage,  // stages all, as a discrete GPU needs it: tests run those copies on a software device
-};
-
 class Reused;
 
 // The first memory type of `allowed` (a bit mask) that has the `wanted` and the `preferred` properties, or at least the `wanted` ones.
@@ -54,16 +48,18 @@ class Device {
 public:
     // `choice` is an index into listDevices or a part of a name in any case; without it the first usable device is taken. With
     // `surface`, a device is usable only if it can present to it. Throws InputError if the choice names no device or one that
-    // cannot present, DeviceError if no device is usable.
+    // cannot present, DeviceError if no device is usable. `as`: by the rules of this class; with those of a discrete GPU no memory is
+    // mapped. So tests run on a software device what a GPU does.
     explicit Device(const VulkanInstance& instance, const std::optional<std::string>& choice = {}, VkSurfaceKHR surface = VK_NULL_HANDLE,
-                    MemoryPolicy memoryPolicy = MemoryPolicy::MapShared);
+                    std::optional<DeviceClass> as = {});
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     const VulkanInstance& instance() const { return instance_; }
     const DeviceDescription& description() const { return description_; }
-    MemoryPolicy memoryPolicy() const { return memoryPolicy_; }
+    // Whether the host maps memory that it shares with the device (software devices, integrated GPUs). The rest is staged.
+    bool mapsShared() const { return mapsShared_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkDevice handle() const { return handle_; }
     VkQueue queue() const { return queue_; }
@@ -91,7 +87,7 @@ private:
     VkDevice handle_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queueFamily_ = 0;
-    MemoryPolicy memoryPolicy_;
+    bool mapsShared_;
     std::uint64_t memory_ = 0, peakMemory_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
     std::unique_ptr<Reused> reused_;

@@ -72,10 +72,11 @@ void CourseEstimators::recordTrace(Recording& recording, const Kernel& kernel, c
 }
 
 void CourseEstimators::recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
-                                       std::uint32_t groups) const
+                                       const Buffer& queueSizes) const
 {
     if (kernels.course.addLuminance) {
-        recording.dispatch(*kernels.course.addLuminance, bindings, CoursePass{pass, {}}, groups);
+        recording.dispatchIndirect(*kernels.course.addLuminance, bindings, CoursePass{pass, {}}, queueSizes,
+                                   offsetof(QueueSizes, endGroups));
     }
 }
 

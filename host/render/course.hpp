@@ -31,9 +31,9 @@ public:
     // course_trace_closest or course_trace_shadow alone, over the queue whose group counts are at groupsOffset in queueSizes.
     void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round, const Buffer& queueSizes,
                      std::uint64_t groupsOffset) const;
-    // After a pass: updates the luminance statistics of --adaptive course.
+    // Once no path is alive: updates the luminance statistics of --adaptive course.
     void recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
-                         std::uint32_t groups) const;
+                         const Buffer& queueSizes) const;
 
 private:
     void recordRound(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const CoursePass& round, bool hemisphere,

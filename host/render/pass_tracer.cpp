@@ -2,7 +2,7 @@
 //
 //   generate_rays
 //   per bounce:  size_dispatch -> trace_closest -> shade_surface -> size_dispatch -> trace_shadow (where lights are sampled)
-//   accumulate
+//   accumulate, which does nothing while a path is alive
 //
 // The persistent schedule, in which one kernel traces path after path to its end:
 //
@@ -20,68 +20,92 @@
 
 #include "shaders/shared/bindings.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace glim {
 namespace {
 
-// Bounces recorded at once; then the host checks whether any path is alive.
-constexpr std::uint32_t kBouncesPerCheck = 8;
+// Bounces recorded at once, after those that earlier passes needed: then the host checks whether any path is alive.
+constexpr std::uint32_t kMoreBounces = 8;
 
 }  // namespace
 
 std::optional<PassSeconds> PassTracer::trace(const Tile& tile, Pass pass, const std::function<bool()>& shouldContinue)
 {
-    Recording recording(resources_.device, resources_.statistics, resources_.settings.portion, shouldContinue);
-    tracePaths(recording, tile, pass);
-    if (recording.isStopped()) {
+    Recording recording(resources_.device, resources_.statistics, portion(), shouldContinue);
+    if (!traceToEnd(recording, tile, pass, [&] { recordEnd(recording, tile, pass); })) {
         resources_.paths().emptyQueues();
         return std::nullopt;
     }
-    if (kernels().showAov) {
-        recording.dispatch(*kernels().showAov, tile.bindings(0), pass, resources_.countGroups(pass.pixelCount * pass.sampleCount));
+    if (recording.total() > 0.0) {
+        resources_.history.seconds = recording.total();
     }
-    recording.dispatch(*kernels().accumulate, tile.bindings(0), pass, resources_.countGroups(pass.pixelCount));
-    resources_.course.recordLuminance(recording, kernels(), tile.bindings(0), pass, resources_.countGroups(pass.pixelCount));
-    recording.finish();
     return PassSeconds{recording.longest(), recording.total()};
 }
 
-void PassTracer::tracePaths(Recording& recording, const Tile& tile, Pass& pass)
+void PassTracer::tracePaths(Recording& recording, const Tile& tile, const Pass& pass)
 {
+    traceToEnd(recording, tile, pass, [] {});
+}
+
+std::uint32_t PassTracer::portion() const
+{
+    return resources_.history.seconds < resources_.settings.uncheckedSeconds ? kMaxTimed : resources_.settings.portion;
+}
+
+// Records as many rounds, bounces or dispatches of trace_paths, as may suffice, and the end of the pass, whose kernels do nothing while a
+// path is alive. So the host waits once per pass, and rarely again. Returns false if the recording was stopped before the end.
+bool PassTracer::traceToEnd(Recording& recording, const Tile& tile, Pass pass, const std::function<void()>& recordEnd)
+{
+    const bool persistent = kernels().tracePaths.has_value();
+    const std::uint32_t last = persistent ? ~0U : pathLengths(resources_.settings).maxBounces;
+    std::uint32_t& usual = resources_.history.rounds;
     // generate_rays fills the queue that bounce 0 reads: the next queue of the odd bindings.
     recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, resources_.countGroups(pass.pixelCount * pass.sampleCount));
-    if (kernels().tracePaths) {
-        tracePersistently(recording, tile, pass);
-    } else {
-        traceByWavefront(recording, tile, pass);
-    }
-}
-
-bool PassTracer::isAnyPathAlive(const Recording& recording) const
-{
-    return !recording.isStopped() && download<QueueSizes>(resources_.paths().queueSizes(), 1)[0].closest > 0;
-}
-
-void PassTracer::traceByWavefront(Recording& recording, const Tile& tile, Pass& pass)
-{
-    const std::uint32_t maxBounces = pathLengths(resources_.settings).maxBounces;
-    resources_.recordSize(recording, tile.bindings(0), pass, kSizesPaths);
-    bool alive = true;
-    while (alive && pass.bounce <= maxBounces) {
-        for (const std::uint32_t end = pass.bounce + kBouncesPerCheck; pass.bounce <= maxBounces && pass.bounce < end; ++pass.bounce) {
-            recordBounce(recording, tile.bindings(pass.bounce % 2), pass);
+    resources_.recordSize(recording, tile.bindings(0), pass, persistent ? kSizesShares : kSizesPaths);
+    std::uint32_t rounds = usual;
+    while (!recording.isStopped() && pass.bounce <= last) {
+        for (; rounds > 0 && pass.bounce <= last; --rounds, ++pass.bounce) {
+            recordRound(recording, tile.bindings(pass.bounce % 2), pass);
         }
+        recordEnd();
+        const bool isWhole = !recording.isStopped();
         recording.finish();
-        alive = isAnyPathAlive(recording);
+        const QueueSizes sizes = readSizes();
+        if (isWhole && sizes.closest == 0) {
+            // Of many paths the longest varies by a few surfaces.
+            const std::uint32_t needed = sizes.lastBounce + 1;
+            usual = std::max(needed + (persistent ? 0 : 2 + needed / 8), usual - 1);
+            return true;
+        }
+        rounds = persistent ? 1 : kMoreBounces;
     }
+    return false;
 }
 
-void PassTracer::recordBounce(Recording& recording, const Bindings& bindings, const Pass& pass) const
+// Adds the samples to the film.
+void PassTracer::recordEnd(Recording& recording, const Tile& tile, const Pass& pass) const
+{
+    const Buffer& sizes = resources_.paths().queueSizes();
+    recording.keepTogether(3);
+    if (kernels().showAov) {  // of rays that end at their first hit
+        recording.dispatch(*kernels().showAov, tile.bindings(0), pass, resources_.countGroups(pass.pixelCount * pass.sampleCount));
+    }
+    recording.dispatchIndirect(*kernels().accumulate, tile.bindings(0), pass, sizes, offsetof(QueueSizes, endGroups));
+    resources_.course.recordLuminance(recording, kernels(), tile.bindings(0), pass, sizes);
+}
+
+void PassTracer::recordRound(Recording& recording, const Bindings& bindings, const Pass& pass) const
 {
     const Buffer& sizes = resources_.paths().queueSizes();
     Pass next = pass;
     next.bounce = pass.bounce + 1;
+    if (kernels().tracePaths) {
+        recording.dispatchIndirect(*kernels().tracePaths, bindings, pass, sizes, offsetof(QueueSizes, closestGroups));
+        resources_.recordSize(recording, bindings, next, kSizesShares);
+        return;
+    }
     if (usesCourseEstimators(resources_.settings)) {
         resources_.course.recordBounce(recording, kernels(), bindings, pass, sizes);
         resources_.recordSize(recording, bindings, next, kSizesPaths);
@@ -97,21 +121,6 @@ void PassTracer::recordBounce(Recording& recording, const Bindings& bindings, co
     }
 }
 
-void PassTracer::tracePersistently(Recording& recording, const Tile& tile, Pass& pass)
-{
-    resources_.recordSize(recording, tile.bindings(0), pass, kSizesShares);
-    pass.bounce = 1;  // the queue is no longer that of all slots
-    bool alive = true;
-    for (std::uint32_t parity = 0; alive; parity = 1 - parity) {
-        const Bindings& bindings = tile.bindings(parity);
-        recording.dispatchIndirect(*kernels().tracePaths, bindings, pass, resources_.paths().queueSizes(),
-                                   offsetof(QueueSizes, closestGroups));
-        resources_.recordSize(recording, bindings, pass, kSizesShares);
-        recording.finish();
-        alive = isAnyPathAlive(recording);
-    }
-}
-
 std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std::uint32_t pixel, std::uint32_t firstSample,
                                                   std::uint32_t first, std::uint32_t count, const std::function<bool()>& shouldContinue)
 {
@@ -121,7 +130,7 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std
     pass.pixelCount = count;
     pass.firstSample = firstSample;
     pass.sampleCount = 1;
-    Recording recording(resources_.device, resources_.statistics, resources_.settings.portion, shouldContinue);
+    Recording recording(resources_.device, resources_.statistics, portion(), shouldContinue);
     const std::uint32_t share = resources_.settings.workgroup * rulesOf(resources_.device.description().deviceClass).pathsPerThread;
     // Fills the queue that the next dispatch reads, as generate_rays does.
     recording.dispatch(*kernels().traceLightPaths, splats.bindings(1), pass, (count + share - 1) / share);
@@ -131,7 +140,7 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std
         const Bindings& bindings = splats.bindings(parity);
         resources_.recordSize(recording, bindings, pass, kSizesShares);
         recording.finish();
-        alive = isAnyPathAlive(recording);
+        alive = !recording.isStopped() && readSizes().closest > 0;
         if (alive) {
             recording.dispatchIndirect(*kernels().traceLightPaths, bindings, pass, resources_.paths().queueSizes(),
                                        offsetof(QueueSizes, closestGroups));

@@ -15,8 +15,8 @@ public:
     // Traces the pass and adds its samples to the film. Returns the time it took. Returns nothing, and leaves the film as it was, if
     // `shouldContinue`, asked after each portion of dispatches, ended it.
     std::optional<PassSeconds> trace(const Tile& tile, Pass pass, const std::function<bool()>& shouldContinue);
-    // The same without adding them, by a recording that may watch the kernels. `pass` is then the one of the last kernel.
-    void tracePaths(Recording& recording, const Tile& tile, Pass& pass);
+    // The same without adding them, by a recording that may watch the kernels.
+    void tracePaths(Recording& recording, const Tile& tile, const Pass& pass);
     // Traces `count` light paths from number `first` on, counted from the first of sample `firstSample`, and adds what they bring to the
     // pixels from `pixel` on to `splats`. Returns nothing if `shouldContinue` ended it; what is in `splats` is then of no use.
     std::optional<PassSeconds> traceLight(const SplatBuffer& splats, std::uint32_t pixel, std::uint32_t firstSample, std::uint32_t first,
@@ -27,10 +27,11 @@ public:
     std::uint32_t choosePixels(Tile& tile, std::uint32_t samples);
 
 private:
-    void traceByWavefront(Recording& recording, const Tile& tile, Pass& pass);
-    void tracePersistently(Recording& recording, const Tile& tile, Pass& pass);
-    void recordBounce(Recording& recording, const Bindings& bindings, const Pass& pass) const;
-    bool isAnyPathAlive(const Recording& recording) const;
+    bool traceToEnd(Recording& recording, const Tile& tile, Pass pass, const std::function<void()>& recordEnd);
+    void recordRound(Recording& recording, const Bindings& bindings, const Pass& pass) const;
+    void recordEnd(Recording& recording, const Tile& tile, const Pass& pass) const;
+    QueueSizes readSizes() const { return download<QueueSizes>(resources_.paths().queueSizes(), 1)[0]; }
+    std::uint32_t portion() const;
     const KernelSet& kernels() const { return resources_.kernels(); }
 
     RenderResources& resources_;

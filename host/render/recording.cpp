@@ -32,7 +32,7 @@ Recording::Recording(const Device& device, std::map<std::string, KernelStatistic
 // The commands to record to; null once the recording is stopped.
 Commands* Recording::next()
 {
-    if (recorded_ == portion_) {
+    if (recorded_ >= std::max(portion_, together_)) {
         finish();
     }
     if (stopped_) {
@@ -70,6 +70,14 @@ void Recording::showWatch(const Kernel& kernel, std::span<const std::byte> push)
     }
 }
 
+void Recording::keepTogether(std::uint32_t dispatches)
+{
+    if (recorded_ + dispatches > portion_) {
+        finish();
+    }
+    together_ = recorded_ + dispatches;
+}
+
 void Recording::finish()
 {
     if (!commands_) {
@@ -84,7 +92,7 @@ void Recording::finish()
         total_ += time.seconds;
     }
     commands_.reset();
-    recorded_ = 0;
+    recorded_ = together_ = 0;
     stopped_ = shouldContinue_ && !shouldContinue_();
 }
 

@@ -40,7 +40,9 @@ public:
     {
         recordIndirect(kernel, bindings, std::as_bytes(std::span<const Push, 1>(&push, 1)), arguments, offset);
     }
-    // Runs what has not run yet. Must be the last call.
+    // The next dispatches, so many, run all or not at all.
+    void keepTogether(std::uint32_t dispatches);
+    // Runs what has not run yet.
     void finish();
 
     // Whether anything may be missing because `shouldContinue` was false.
@@ -63,7 +65,7 @@ private:
     Watch watch_;
     bool stopped_ = false;
     std::optional<Commands> commands_;
-    std::uint32_t recorded_ = 0;
+    std::uint32_t recorded_ = 0, together_ = 0;
     double longest_ = 0.0, total_ = 0.0;
 };
 

@@ -10,6 +10,7 @@
 #include "host/render/recording.hpp"
 #include "host/render/splats.hpp"
 
+#include <limits>
 #include <memory>
 
 namespace glim {
@@ -27,6 +28,12 @@ struct SharedResources {
 struct LastingResources {
     std::shared_ptr<const CompiledKernels> kernels;
     LastingBuffers buffers;
+};
+
+// What the last passes tell of the next one. No bit depends on it.
+struct PassHistory {
+    std::uint32_t rounds;                                      // to record at once
+    double seconds = std::numeric_limits<double>::infinity();  // of the device
 };
 
 struct RenderResources {
@@ -68,6 +75,7 @@ struct RenderResources {
     std::shared_ptr<const CompiledKernels> compiled, spare;
     double compileSeconds = 0.0;
     std::map<std::string, KernelStatistics> statistics;
+    PassHistory history{.rounds = schedule == Schedule::Persistent ? 1U : 8U};
 
 private:
     RenderResources(Device& device, std::shared_ptr<SharedResources> shared, std::shared_ptr<const CompiledKernels> kernels,

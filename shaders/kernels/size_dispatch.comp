@@ -1,5 +1,5 @@
 // One thread in all. Turns the length of the queue that was just filled, of paths or of shadow rays as the pass says, into the size of
-// the dispatches over it, and resets its tail. At the start of a pass (bounce 0) generate_rays has queued all slots.
+// the dispatches over it and, once no path is alive, over the pass's pixels, and resets its tail. At the start of a pass (bounce 0) generate_rays has queued all slots.
 // Reads and writes queue tails; writes queue sizes; adds to the ray counts and, for queues that are too long, to the status.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -27,6 +27,10 @@ uint takePaths(uint slots, uint share)
     uint count = pass.bounce == 0u ? slots : checkQueue(queueTails.next, slots);
     queueSizes.closest = count;
     queueSizes.closestGroups = uvec3(countGroups(count, share), 1u, 1u);
+    queueSizes.endGroups = uvec3(count == 0u ? countGroups(pass.pixelCount, 1u) : 0u, 1u, 1u);
+    if (count > 0u) {
+        queueSizes.lastBounce = pass.bounce;
+    }
     queueTails.next = 0u;
     return count;
 }

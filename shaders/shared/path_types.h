@@ -92,6 +92,8 @@ struct QueueSizes {
     uint shadow;
     uvec3 closestGroups;
     uvec3 shadowGroups;
+    uvec3 endGroups;  // over the pass's pixels, for the kernels that end it: none while a path is alive
+    uint lastBounce;  // that had a path
 };
 
 // Where the next entry goes.

@@ -40,7 +40,8 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
         BufferKind::Both);
     const Buffer shadowRays = filled<ShadowRay>(
         "shadow rays", [](uint i) { return ShadowRay{vec3(0), 0, vec3(0), 6000 + i, vec3(0), 1.0F}; }, BufferKind::Both);
-    const Buffer sizes = filled<QueueSizes>("queue sizes", [](uint) { return QueueSizes{kSlots, 0, uvec3(0), uvec3(0, 0, 77)}; });
+    const Buffer sizes =
+        filled<QueueSizes>("queue sizes", [](uint) { return QueueSizes{kSlots, 0, uvec3(0), uvec3(0, 0, 77), uvec3(0), 0}; });
     const Buffer states = filled<PathState>(
         "states",
         [](uint) {

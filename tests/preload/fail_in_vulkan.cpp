@@ -1,17 +1,20 @@
-// Preloaded into glim: a driver that fails.
+// Preloaded into glim: a driver that fails, or a device that is far away.
 //
 // GLIM_LOSE_DEVICE_AT  n: the n-th submission and everything that waits from there on answers VK_ERROR_DEVICE_LOST
 // GLIM_REFUSE_MEMORY_AT  n: the n-th allocation and all after it answer VK_ERROR_OUT_OF_DEVICE_MEMORY
 // GLIM_REFUSE_OBJECTS_AT  n: the n-th object and all after it are not made: VK_ERROR_OUT_OF_HOST_MEMORY
 // GLIM_LACK_FEATURES  set: the device has none of Vulkan's features
+// GLIM_DELAY_MS  n: each submission and each wait for its end takes n ms longer
 #include <dlfcn.h>
 
 #include <vulkan/vulkan.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 namespace {
 
@@ -32,6 +35,13 @@ std::atomic<int> submissions = 0, allocations = 0, objects = 0;
 
 bool isLost() { return isDue("GLIM_LOSE_DEVICE_AT", submissions - 1); }
 
+void delay()
+{
+    if (const char* milliseconds = std::getenv("GLIM_DELAY_MS")) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(milliseconds)));
+    }
+}
+
 void clear(VkBool32* first, const VkBool32* last) { std::memset(first, 0, static_cast<std::size_t>(last - first + 1) * sizeof(VkBool32)); }
 
 }  // namespace
@@ -41,6 +51,7 @@ extern "C" {
 VkResult vkQueueSubmit(VkQueue queue, uint32_t count, const VkSubmitInfo* submits, VkFence fence)
 {
     ++submissions;
+    delay();
     static const auto next = original<PFN_vkQueueSubmit>("vkQueueSubmit");
     return isLost() ? VK_ERROR_DEVICE_LOST : next(queue, count, submits, fence);
 }
@@ -54,6 +65,7 @@ VkResult vkQueueWaitIdle(VkQueue queue)
 VkResult vkWaitForFences(VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout)
 {
     static const auto next = original<PFN_vkWaitForFences>("vkWaitForFences");
+    delay();
     return isLost() ? VK_ERROR_DEVICE_LOST : next(device, count, fences, all, timeout);
 }
 

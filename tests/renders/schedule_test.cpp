@@ -136,7 +136,7 @@ TEST(PersistentTest, LongPathsTakeSeveralDispatches)
     RenderSettings settings = squareSettings(9, 2);
     settings.bounces = 1500;
     const RenderStatistics statistics = expectSame(flat, flattenCamera(builder.scene().cameras.front(), 1.0F), settings).statistics;
-    EXPECT_GT(statistics.kernels.at("trace_paths").dispatches, 2 * statistics.kernels.at("accumulate").dispatches);
+    EXPECT_GT(statistics.kernels.at("trace_paths").dispatches, 2 * statistics.kernels.at("generate_rays").dispatches);
 }
 
 TEST(PersistentTest, PathsAreReplayedByTheWavefront)

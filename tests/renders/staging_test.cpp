@@ -1,4 +1,4 @@
-// The copies of a device whose memory the host does not map, as a discrete GPU's, run on the device at hand.
+// What a discrete GPU does runs on the device at hand: the copies, since the host does not map its memory, and the rules of its class.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/gpu/commands.hpp"
 #include "tests/support/build_scene.hpp"
@@ -34,7 +34,7 @@ protected:
     Buffer storage(std::uint64_t size) { return {device, "test's bytes", BufferKind::Storage, size}; }
 
     VulkanInstance instance;
-    Device device{instance, std::nullopt, VK_NULL_HANDLE, MemoryPolicy::AlwaysStage};
+    Device device{instance, std::nullopt, VK_NULL_HANDLE, DeviceClass::DiscreteGpu};
 };
 
 TEST_F(StagingTest, NoMemoryOfKernelsIsMapped)
@@ -139,7 +139,7 @@ TEST_F(StagingTest, CopiesInGigabytesPerSecond)
 }
 
 // The film's pages end at 256 samples; an adaptive render also chooses pixels, which the host looks at.
-TEST_F(StagingTest, ARenderHasTheBitsOfMappedMemory)
+TEST_F(StagingTest, ARenderHasTheBitsOfASoftwareDevice)
 {
     const Scene scene = mixedScene();
     const FlatScene flat = flattened(scene);
@@ -147,6 +147,7 @@ TEST_F(StagingTest, ARenderHasTheBitsOfMappedMemory)
     RenderSettings uniform = squareSettings(16, 264), adaptive = squareSettings(16, 80);
     adaptive.adaptive = Adaptive::Neighbours;
     for (RenderSettings settings : {uniform, adaptive}) {
+        settings.pathCapacity = 1U << 12U;
         for (const Schedule schedule : {Schedule::Wavefront, Schedule::Persistent}) {
             settings.schedule = schedule;
             const auto render = [&](Device& on) {

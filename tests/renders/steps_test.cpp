@@ -97,6 +97,7 @@ TEST_F(StepsTest, PassesThatAreGivenUpAreTracedAgain)
     settings.sampleEnd = 8;
     settings.course.direct = DirectLight::Lights;
     settings.course.lightSamples = 16;
+    settings.uncheckedSeconds = 0.0;
     Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     int calls = 0, given = 0;
     while (!renderer.plan().isDone()) {

@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 422u;
+GLIM_CONST uint kSharedWords = 426u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -67,7 +67,7 @@ F(note.diffuseTransmission) F(note.clearcoat) F(note.clearcoatRoughness) F3(note
 F(note.iridescence) F(note.filmThickness) F(note.alpha) U(note.medium)
 F(note.lightPdfOfHit) F(note.misWeightOfHit) U(note.light) F(note.lightPdf)
 F(note.bsdfPdf) F(note.misWeightOfLight) U(note.lobe) U(note.lobeFlags) F3(note.weight) F3(note.throughput) F(note.continuation)
-U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queueSizes.shadowGroups)
+U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queueSizes.shadowGroups) U3(queueSizes.endGroups) U(queueSizes.lastBounce)
 U(queueTails.next) U(queueTails.shadow)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)

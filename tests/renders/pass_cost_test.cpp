@@ -1,0 +1,114 @@
+// What a pass costs beside its kernels, counted without a clock: on a GPU the device idles while the host submits, waits and copies.
+#include "host/flatten/flatten_scene.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+#include "tests/support/vulkan_calls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace glim::test {
+namespace {
+
+struct PassCost {
+    std::uint64_t passes = 0;
+    VulkanCalls calls;
+};
+
+// Of the passes of samples 64 to 128, some 32, after those before have shown how many surfaces paths meet.
+PassCost costOf(Device& device, Schedule schedule)
+{
+    const Scene scene = mixedScene();
+    RenderSettings settings = squareSettings(64, 128);
+    settings.schedule = schedule;
+    settings.pathCapacity = 1U << 13U;
+    settings.uncheckedSeconds = 1e9;
+    settings.caustics = false;
+    Renderer renderer(device, flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+    const auto always = [] { return true; };
+    while (renderer.plan().sampleCount() < 64) {
+        renderer.advance(always);
+    }
+    const VulkanCalls before = vulkanCalls();
+    PassCost cost;
+    for (; renderer.advance(always); ++cost.passes) {
+    }
+    cost.calls = vulkanCalls() - before;
+    std::cout << getName(schedule) << ": " << cost.passes << " passes, " << cost.calls.submits << " submissions, " << cost.calls.waits
+              << " waits, " << cost.calls.dispatches << " dispatches, " << cost.calls.barriers << " barriers, " << cost.calls.copies
+              << " copies\n";
+    return cost;
+}
+
+class PassCostTest : public testing::TestWithParam<Schedule> {};
+
+void expectOneSubmissionAPass(const PassCost& cost)
+{
+    EXPECT_GE(cost.passes, 16U);
+    EXPECT_GE(cost.calls.submits, cost.passes);
+    EXPECT_LE(cost.calls.submits, cost.passes + cost.passes / 4) << "paths may be longer than those of the passes before, rarely";
+    EXPECT_EQ(cost.calls.waits, cost.calls.submits);
+    EXPECT_EQ(cost.calls.objects, 0U) << "submissions use the objects of earlier ones";
+}
+
+TEST_P(PassCostTest, WhereMemoryIsSharedNothingIsCopied)
+{
+    const PassCost cost = costOf(testDevice(), GetParam());
+    expectOneSubmissionAPass(cost);
+    if (isSoftware(testDevice().description().deviceClass)) {
+        EXPECT_EQ(cost.calls.copies, 0U);
+        EXPECT_EQ(cost.calls.barriers, cost.calls.dispatches);
+    }
+}
+
+// Queue sizes, ray counts, status and note.
+TEST_P(PassCostTest, ADeviceWithMemoryOfItsOwnCopiesFourSmallBuffersWithEachSubmission)
+{
+    const VulkanInstance instance;
+    Device device(instance, std::nullopt, VK_NULL_HANDLE, DeviceClass::DiscreteGpu);
+    const PassCost cost = costOf(device, GetParam());
+    expectOneSubmissionAPass(cost);
+    EXPECT_EQ(cost.calls.copies, 4 * cost.calls.submits);
+    EXPECT_EQ(cost.calls.barriers, cost.calls.dispatches + cost.calls.submits);
+}
+
+INSTANTIATE_TEST_SUITE_P(Schedules, PassCostTest, testing::Values(Schedule::Wavefront, Schedule::Persistent),
+                         [](const testing::TestParamInfo<Schedule>& schedule) { return std::string(getName(schedule.param)); });
+
+// A GPU with 256 MiB of its memory in view of the host, and one that shares all memory, as drivers list their types.
+TEST(KernelMemoryTest, IsTheDevicesOwnAndMappedOnlyIfShared)
+{
+    constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                    kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                    kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    const auto chosen = [](std::initializer_list<VkMemoryPropertyFlags> types) {
+        VkPhysicalDeviceMemoryProperties memory{};
+        for (const VkMemoryPropertyFlags flags : types) {
+            memory.memoryTypes[memory.memoryTypeCount++].propertyFlags = flags;
+        }
+        const auto type = findMemoryType(memory, ~0U, kLocal, kHost | kCached);
+        return type ? memory.memoryTypes[*type].propertyFlags : 0;
+    };
+    EXPECT_EQ(chosen({0, kLocal, kHost, kHost | kCached, kLocal | kHost}), kLocal);
+    EXPECT_EQ(chosen({kLocal, kLocal | kHost, kLocal | kHost | kCached}), kLocal | kHost | kCached);
+}
+
+// What a bounce of the wavefront reads and writes of a path in device memory, at most: the sum over its three kernels. The scene comes on
+// top of it.
+TEST(PathBytesTest, OfABounce)
+{
+    constexpr std::size_t kEntry = sizeof(std::uint32_t);
+    constexpr std::size_t kTrace = kEntry + sizeof(PathRay) + sizeof(PathHit);
+    constexpr std::size_t kShade =
+        kEntry + 2 * sizeof(PathRay) + sizeof(PathHit) + 2 * sizeof(PathState) + 2 * sizeof(PathRadiance) + sizeof(ShadowRay) + 2 * kEntry;
+    constexpr std::size_t kShadow = kEntry + sizeof(ShadowRay) + 2 * sizeof(PathRadiance);
+    EXPECT_EQ(kTrace, 52U);
+    EXPECT_EQ(kShade, 236U);
+    EXPECT_EQ(kShadow, 84U);
+    EXPECT_EQ(PathBuffers::sizeInBytes(1) - PathBuffers::sizeInBytes(0), 188U) << "as host/cli/README.md says of --path-capacity";
+}
+
+}  // namespace
+}  // namespace glim::test
