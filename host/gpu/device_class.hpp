@@ -25,6 +25,9 @@ struct ClassRules {
     // Paths that a thread of trace_paths and trace_light_paths takes, one after the other. On a CPU it spares starting threads; on a GPU it
     // leaves threads without work.
     std::uint32_t pathsPerThread;
+    // The traversal stacks of a workgroup are in its shared memory. Otherwise all levels of a stack move, by selections, which is faster on
+    // llvmpipe (access/traversal_stack.glsl).
+    bool sharedStack;
 };
 
 DeviceClass classify(VkPhysicalDeviceType type, VkDriverId driver);

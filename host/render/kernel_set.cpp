@@ -58,6 +58,9 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecSuspects] = settings.suspects > 0;
     constants[kSpecNotes] = settings.notes;
     constants[kSpecPathsPerThread] = rulesOf(deviceClass).pathsPerThread;
+    constexpr std::uint32_t kSharedBytes = 16384;  // that every device has
+    const std::uint32_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;
+    constants[kSpecSharedStack] = rulesOf(deviceClass).sharedStack && stackBytes <= kSharedBytes;
     return constants;
 }
 

@@ -223,9 +223,9 @@ PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
             } while (refs.left != 0u);
         }
         if (hasFeature(kFeatureInstances)) {
-            markWayBack(stack, children, group);
+            markWayBack(stack, children, group)
         }
-        group = nextGroup(stack, children, group);
+        moveToNextGroup(stack, children, group)
         if (hasFeature(kFeatureInstances)) {
             changeSpace(ray.origin, ray.direction, node, group, traversal, offsets);
         }
@@ -257,9 +257,9 @@ bool isUnoccluded(ShadowRay ray, uint sides, inout Steps steps, out bool metAlph
         visitNode(traversal, node, ray.tMax, children, refs);
         ++steps.nodes;
         if (hasFeature(kFeatureInstances)) {
-            markWayBack(stack, children, group);
+            markWayBack(stack, children, group)
         }
-        group = nextGroup(stack, children, group);
+        moveToNextGroup(stack, children, group)
         going = hasAny(group);
         if (refs.left != 0u) {
             do {

@@ -27,6 +27,7 @@ const FeatureMask kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;
 layout(constant_id = kSpecPathsPerThread) const uint kPathsPerThread = 16u;
+layout(constant_id = kSpecSharedStack) const bool kSharedStack = false;
 layout(constant_id = kSpecSobol) const bool kSobol = true;
 layout(constant_id = kSpecLens) const bool kLens = false;
 layout(constant_id = kSpecChosen) const bool kChosen = false;

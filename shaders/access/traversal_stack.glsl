@@ -3,6 +3,7 @@
 #define GLIM_ACCESS_TRAVERSAL_STACK
 
 #include "features.glsl"
+#include "pass.glsl"
 #include "shared/scene_types.h"
 
 // Inner children of a node that are still to be visited: the upper byte of `left`, the nearest uppermost. The lowest byte says which
@@ -33,16 +34,27 @@ uint takeNode(inout NodeGroup group, uint octant)
     return group.first + bitCount(group.left & ~(0xffffffffu << place) & 0xffu);
 }
 
-// levels[0] is the top; kEmptyGroup lie below the last entry. Only the first kStackLevels levels are used.
+// A GPU's workgroup has its stacks in shared memory, level by level. Registers have no index there: moving all levels, as below, would take
+// two registers a level, and an array in a thread's own memory more (tests/bench/GPU.md).
+const uint kSharedGroups = kSharedStack ? kStackLevels * gl_WorkGroupSize.x : 1u;
+shared uint sharedFirst[kSharedGroups], sharedLeft[kSharedGroups];
+#define SHARED_PLACE(level) ((level) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
+
+// levels[0] is the top; kEmptyGroup lie below the last entry. Only the first kStackLevels levels are used. In shared memory the top is
+// level depth - 1.
 struct TraversalStack {
     NodeGroup levels[kMaxStackLevels];
+    uint depth;
 };
 
 TraversalStack makeTraversalStack()
 {
     TraversalStack stack;
-    for (uint i = 0u; i < kStackLevels; ++i) {
-        stack.levels[i] = kEmptyGroup;
+    stack.depth = 0u;
+    if (!kSharedStack) {
+        for (uint i = 0u; i < kStackLevels; ++i) {
+            stack.levels[i] = kEmptyGroup;
+        }
     }
     return stack;
 }
@@ -52,10 +64,8 @@ NodeGroup choose(bool first, NodeGroup a, NodeGroup b)
     return NodeGroup(first ? a.first : b.first, first ? a.left : b.left);
 }
 
-// The group to visit next: the children; if there are none, the rest of `group`; if that is empty too, the top of the stack. If there are
-// children, the rest of `group` is pushed. Every level moves, by selections: with an index of its own, each lane would write to memory by
-// itself.
-NodeGroup nextGroup(inout TraversalStack stack, NodeGroup children, NodeGroup group)
+// Every level moves, by selections: with an index of its own, each lane of a CPU's vector would write to memory by itself.
+NodeGroup selectNextGroup(inout TraversalStack stack, NodeGroup children, NodeGroup group)
 {
     bool pushes = hasAny(children) && hasAny(group);
     bool pops = !hasAny(children) && !hasAny(group);
@@ -75,12 +85,47 @@ NodeGroup nextGroup(inout TraversalStack stack, NodeGroup children, NodeGroup gr
     return next;
 }
 
+// Sets `group` to the group to visit next: the children; if there are none, the rest of `group`; if that is empty too, the top of the
+// stack. If there are children, the rest of `group` is pushed.
+#define moveToNextGroup(stack, children, group) \
+    { \
+        if (kSharedStack) { \
+            if (hasAny(children)) { \
+                if (hasAny(group)) { \
+                    sharedFirst[SHARED_PLACE(stack.depth)] = group.first; \
+                    sharedLeft[SHARED_PLACE(stack.depth)] = group.left; \
+                    ++stack.depth; \
+                } \
+                group = children; \
+            } else if (!hasAny(group)) { \
+                group = kEmptyGroup; \
+                if (stack.depth > 0u) { \
+                    --stack.depth; \
+                    group = NodeGroup(sharedFirst[SHARED_PLACE(stack.depth)], sharedLeft[SHARED_PLACE(stack.depth)]); \
+                } \
+            } \
+        } else { \
+            group = selectNextGroup(stack, children, group); \
+        } \
+    }
+
 // If the children are those of an instance: what comes after them, which is the rest of `group` or else the top of the stack, leaves it.
-void markWayBack(inout TraversalStack stack, NodeGroup children, inout NodeGroup group)
-{
-    bool enters = (children.left & kEntersInstance) != 0u;
-    group.left |= enters && hasAny(group) ? kLeavesInstance : 0u;
-    stack.levels[0].left |= enters && !hasAny(group) ? kLeavesInstance : 0u;
-}
+#define markWayBack(stack, children, group) \
+    { \
+        bool enters = (children.left & kEntersInstance) != 0u; \
+        group.left |= enters && hasAny(group) ? kLeavesInstance : 0u; \
+        if (kSharedStack) { \
+            if (enters && !hasAny(group)) { \
+                if (stack.depth == 0u) { \
+                    sharedFirst[SHARED_PLACE(0u)] = 0u; \
+                    sharedLeft[SHARED_PLACE(0u)] = 0u; \
+                    stack.depth = 1u; \
+                } \
+                sharedLeft[SHARED_PLACE(stack.depth - 1u)] |= kLeavesInstance; \
+            } \
+        } else { \
+            stack.levels[0].left |= enters && !hasAny(group) ? kLeavesInstance : 0u; \
+        } \
+    }
 
 #endif

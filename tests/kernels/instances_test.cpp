@@ -35,6 +35,7 @@ struct Row {
     float tolerance;         // in sizes of the instance
     glm::dvec3 origin{0.0};  // of the scene
     double angle = 0.7;      // times the instance's number: the turn
+    bool sharedStack = false;
 };
 
 void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
@@ -60,6 +61,7 @@ Tally shoot(const Triangles& mesh, const Row& row)
     EXPECT_EQ(onDevice.flat.instances.size(), 8U * kInstanceTexels);
     EXPECT_EQ(onDevice.flat.primitiveRefs.size() / kPrimitiveRefTexels, onDevice.bvh.order.size());
     KernelTest test = onDevice.test(test_kernels::instances_test);
+    test.specialize(kSpecSharedStack, row.sharedStack);
     test.cases(std::vector<float>{row.tolerance}).resultsOf<Tally>(1);
     test.threads(static_cast<std::uint32_t>(hardTrials(samplesFor(90'048, 25)))).run();
     return test.results<Tally>()[0];
@@ -92,7 +94,9 @@ TEST_P(InstancesTest, H1H7NoRayLeavesAnInstanceAndNoneComesBack)
 
 INSTANTIATE_TEST_SUITE_P(
     Rows, InstancesTest,
-    testing::Values(Row{"AsTheyAre", glm::dvec3(1.0), glm::dvec3(0.0), 1e-5F}, Row{"Mirrored", {1, 1, -1}, {0, 0, 0}, 1e-5F},
+    testing::Values(Row{"AsTheyAre", glm::dvec3(1.0), glm::dvec3(0.0), 1e-5F},
+                    Row{"SharedStack", glm::dvec3(1.0), glm::dvec3(0.0), 1e-5F, {0, 0, 0}, 0.7, true},
+                    Row{"Mirrored", {1, 1, -1}, {0, 0, 0}, 1e-5F},
                     // 1,300 m from the origin rays round by 6e-5 m, which is 6e-4 of a thickness of .1, and that much of the length.
                     Row{"OtherProportions", {1, 20, 0.1}, {0, 0, 0}, 3e-3F}, Row{"MirroredProportions", {-3, 0.2, 1}, {0, 0, 0}, 1e-4F},
                     Row{"Small", glm::dvec3(1e-4), {0, 0, 0}, 1e-5F}, Row{"Large", glm::dvec3(1e4), {0, 0, 0}, 1e-5F},

@@ -26,7 +26,8 @@ void traverse(uint thread)
     TraversalStack stack = makeTraversalStack();
     for (uint i = 0u; i < kSteps; ++i) {
         Step step = cases[thread].steps[i];
-        NodeGroup next = nextGroup(stack, step.children, step.group);
+        NodeGroup next = step.group;
+        moveToNextGroup(stack, step.children, next)
         EXPECT_EQUAL(next.first, step.next.first);
         EXPECT_EQUAL(next.left, step.next.left);
         EXPECT_TRUE(hasAny(next) == (step.next.left > 0xffffffu));

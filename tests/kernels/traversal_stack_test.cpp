@@ -94,8 +94,11 @@ TEST(TraversalStackTest, TheStackGivesBackWhatWasPutThereLast)
             cases[i].steps = makeSteps(maker, levels, i % 2 == 0 ? 0.5 : 0.8);
             makeOrder(cases[i], static_cast<uint>(i / 8), static_cast<uint>(i % 8));
         }
-        KernelTest test(test_kernels::traversal_stack_test);
-        test.specialize(kSpecStackLevels, levels).cases(cases).resultsOf<uint>(cases.size()).run();
+        for (const bool shared : {false, true}) {
+            KernelTest test(test_kernels::traversal_stack_test);
+            test.specialize(kSpecStackLevels, levels).specialize(kSpecSharedStack, shared);
+            test.cases(cases).resultsOf<uint>(cases.size()).run();
+        }
     }
 }
 

@@ -123,9 +123,9 @@ TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
 {
     const SceneOnDevice scene(makeTestScene(terrain(120)));
     const std::vector<PathRay> rays = uniformLines(scene.bvh.box, 20000);
-    const auto traceWith = [&](uint levels) {
+    const auto traceWith = [&](uint levels, bool shared = false) {
         KernelTest test = scene.test(test_kernels::traverse_steps_test);
-        return trace(test.specialize(kSpecStackLevels, levels), rays);
+        return trace(test.specialize(kSpecStackLevels, levels).specialize(kSpecSharedStack, shared), rays);
     };
     const auto countDifferences = [&](const std::vector<Result>& results, const std::vector<Result>& expected) {
         std::size_t different = 0;
@@ -137,6 +137,7 @@ TEST(TraverseStepsTest, TheStackIsAsDeepAsTheTreeNeeds)
     const std::vector<Result> expected = traceWith(kMaxStackLevels);
     EXPECT_GE(scene.flat.stackLevels, scene.bvh.depth - 2);
     EXPECT_EQ(countDifferences(traceWith(scene.bvh.depth - 2), expected), 0U);
+    EXPECT_EQ(countDifferences(traceWith(kMaxStackLevels, true), expected), 0U) << "in shared memory";
     EXPECT_GT(countDifferences(traceWith(1), expected), 0U) << "group are lost where there is no room";
 }
 

@@ -1,0 +1,40 @@
+// Compiles kernels one after the other, with both traversal stacks. A driver that prints registers and spills then prints them behind the
+// kernel's name (tests/bench/GPU.md).
+#include "host/flatten/flatten_scene.hpp"
+#include "host/render/kernel_set.hpp"
+#include "host/render/path_buffers.hpp"
+#include "kernels.hpp"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/course_types.h"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace glim {
+namespace {
+
+TEST(KernelRegistersTest, EachKernelIsCompiledAlone)
+{
+    const Scene scene = mixedScene();
+    const FlatScene flat = flattened(scene);
+    const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F);
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
+    Specialization constants = specialize(flat, camera, {}, testDevice().description().deviceClass);
+    constants[kSpecStackLevels] = 8;  // a large scene's
+    for (const bool shared : {false, true}) {
+        constants[kSpecSharedStack] = shared;
+        for (const EmbeddedShader* shader :
+             {&kernels::generate_rays, &kernels::size_dispatch, &kernels::trace_closest, &kernels::shade_surface, &kernels::trace_shadow,
+              &kernels::accumulate, &kernels::trace_light_paths, &kernels::trace_paths}) {
+            std::cerr << "kernel " << shader->name << (shared ? ", shared stack\n" : "\n");
+            EXPECT_NE(Kernel(layout, *shader, constants).pipeline(), VkPipeline{});
+        }
+    }
+}
+
+}  // namespace
+}  // namespace glim
