@@ -11,7 +11,7 @@ namespace glim {
 namespace {
 
 constexpr std::uint32_t kWorkgroup = 64, kFirstThreads = 4096;
-constexpr std::uint32_t kBandPixels = 1U << 21;  // 88 MiB of distances; no buffer exceeds 128 MiB, llvmpipe's limit
+constexpr std::uint32_t kBandPixels = 1U << 21;  // 88 MiB of distances; no buffer exceeds 128 MiB, Vulkan's least limit
 constexpr double kDispatchSeconds = 0.05;
 
 // The power of two nearest below the mean radiance: dividing by it changes no bit of the result. Squares of what is divided are normal

@@ -92,9 +92,6 @@ std::string findMissing(VkPhysicalDevice physical, std::uint32_t version)
     return properties12.shaderSignedZeroInfNanPreserveFloat32 == VK_FALSE ? "shaderSignedZeroInfNanPreserveFloat32" : "";
 }
 
-// These compute on the CPU, whose divisions and roots are rounded to nearest (IEEE 754). A probe would prove nothing of the others.
-bool dividesExactly(VkDriverId driver) { return driver == VK_DRIVER_ID_MESA_LLVMPIPE || driver == VK_DRIVER_ID_GOOGLE_SWIFTSHADER; }
-
 Candidate describe(VkPhysicalDevice physical)
 {
     VkPhysicalDeviceMaintenance3Properties allocation{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
@@ -220,7 +217,7 @@ std::vector<DeviceDescription> listDevices(const VulkanInstance& instance)
     return descriptions;
 }
 
-// Measured on two cores (2026-11-25, Mesa 22.3.6): 1,045 MiB.
+// Measured on two cores (2026-11-25): 1,045 MiB.
 std::uint64_t driverAddresses() { return (832 + 128 * std::uint64_t{std::thread::hardware_concurrency()}) << 20U; }
 
 Device::Device(const VulkanInstance& instance, const std::optional<std::string>& choice, VkSurfaceKHR surface,

@@ -32,7 +32,7 @@ struct DeviceDescription {
     std::string missing;                  // the first feature that glim needs and this device lacks; empty if usable
 };
 
-// The address space that Mesa's software driver needs, most of it while it compiles. It crashes without.
+// The address space that a software driver needs, most of it while it compiles. Some crash without (shaders/driver_bugs.md).
 std::uint64_t driverAddresses();
 
 // All devices that Vulkan shows, best first: discrete, integrated, virtual, other, software. Vulkan's order decides within a kind.

@@ -1,4 +1,5 @@
-// The classes of devices, and what each changes: speed, and no bit of a picture.
+// The classes of devices, and what each changes: speed, and no bit of a picture. Of the arithmetic, which bits come from, drivers have
+// names.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -34,5 +35,8 @@ DeviceClass classify(VkPhysicalDeviceType type, VkDriverId driver);
 const ClassRules& rulesOf(DeviceClass deviceClass);
 // Whether it runs on the CPU.
 inline bool isSoftware(DeviceClass deviceClass) { return deviceClass == DeviceClass::Llvmpipe || deviceClass == DeviceClass::Software; }
+
+// Whether its quotients and square roots are known to be rounded to nearest: on a CPU they are (IEEE 754). No probe could show it.
+inline bool dividesExactly(VkDriverId driver) { return driver == VK_DRIVER_ID_MESA_LLVMPIPE || driver == VK_DRIVER_ID_GOOGLE_SWIFTSHADER; }
 
 }  // namespace glim

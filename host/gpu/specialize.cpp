@@ -12,8 +12,9 @@ namespace {
 // About ten scenes' kernels, some 10 MiB: a process that serves for weeks keeps no more.
 constexpr std::size_t kMaxKept = 64;
 
-// Drivers do set constants themselves, but Mesa translates the whole kernel and inlines every call before it drops what they make
-// unreachable: that took .9 s for trace_paths. No pass here changes arithmetic: SPIRV-Tools folds no operation that is NoContraction.
+// Drivers do set constants themselves, but may translate the whole kernel and inline every call before they drop what they make
+// unreachable: that took .9 s for trace_paths (shaders/driver_bugs.md). No pass here changes arithmetic: SPIRV-Tools folds no operation
+// that is NoContraction.
 std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Specialization& specialization)
 {
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> values;

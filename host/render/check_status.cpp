@@ -11,7 +11,7 @@ void refuseBrokenStatus(const DeviceDescription& device, const PathBuffers& path
         throw DeviceError(MessageId::DeviceLimit,
                           {"The driver of \"", device.name, "\" cut loops short in ", part::value(std::to_string(status.loopCaps)),
                            " threads (at its limit of iterations), so the picture would be wrong; the scene's BVH takes more steps per ray "
-                           "than this driver allows (Mesa's software driver has no such limit from version 24 on)."});
+                           "than this driver allows (a newer version of it may have no such limit)."});
     }
     if (status.splatOverflows > 0) {
         throw DeviceError(MessageId::OutOfRange,

@@ -61,7 +61,7 @@ private:
     Buffer queueSizes_, queueTails_, rayCounts_, note_, status_;
 };
 
-// Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB on llvmpipe) cuts large pictures into
+// Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB where Vulkan allows the least) cuts large pictures into
 // several tiles. The tile of an adaptive render knows which of its pixels are chosen for more samples: at first, all.
 class Tile {
 public:

@@ -93,7 +93,7 @@ std::unique_ptr<SplatBuffer> RenderResources::makeSplatBuffer(std::uint32_t coun
     return std::make_unique<SplatBuffer>(device, compiled->layout, constants(), shared->paths, count);
 }
 
-// llvmpipe compiles a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
+// Some drivers compile a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
 void RenderResources::compile()
 {
     const auto start = Clock::now();

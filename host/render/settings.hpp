@@ -100,7 +100,7 @@ struct RenderSettings {
     Schedule schedule = Schedule::Auto;
     std::uint32_t workgroup = 64;               // invocations
     std::optional<std::uint32_t> pathCapacity;  // paths in flight, at least kBlockSamples; by default what suits the device
-    std::uint32_t tilePixels = 1U << 20;        // most pixels of a tile: no buffer of the film exceeds 128 MiB, llvmpipe's limit
+    std::uint32_t tilePixels = 1U << 20;        // most pixels of a tile: no buffer of the film exceeds 128 MiB, Vulkan's least limit
     std::uint32_t portion = 64;                 // dispatches between two checks whether the pass goes on, unless passes take
     double uncheckedSeconds = 0.02;             // less than this
     double passSeconds = 1.0;                   // the most that a pass should take; callers wait for its end

@@ -199,9 +199,9 @@ struct Steps {
     uint primitives;  // tested
 };
 
-// Loops test their condition at the end. If they test it at the beginning, llvmpipe runs the body once more with no lane active. But the
-// code after such a loop may use only variables that the loop carries from iteration to iteration: on Mesa 22.3.6 anything else is
-// recomputed for a lane that has left, as long as other lanes stay, from variables that may have changed since (KernelRulesTest).
+// Loops test their condition at the end. If they test it at the beginning, a CPU runs the body once more with no lane active. But the code
+// after such a loop may use only variables that the loop carries from iteration to iteration: some drivers recompute anything else for a
+// lane that has left, as long as other lanes stay, from variables that may have changed since (driver_bugs.md, KernelRulesTest).
 PathHit traceClosest(PathRay ray, Query query, inout Steps steps)
 {
     TraversalRay traversal = makeTraversalRay(ray.origin, ray.direction);

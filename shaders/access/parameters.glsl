@@ -7,7 +7,7 @@
 
 layout(set = 0, binding = kBindParameters, scalar) readonly buffer ParametersBlock { RenderParameters parameters; };
 
-// A copy that main makes before anything else. llvmpipe reads a buffer in a branch lane by lane: trace_paths took a fifth longer.
+// A copy that main makes before anything else. A CPU reads a buffer in a branch lane by lane: trace_paths took a fifth longer.
 RenderParameters render = parameters;
 
 #endif

@@ -1,5 +1,5 @@
 // A path's vertex: what happens where a ray meets a surface, or nothing. Both schedules call shadeSurface and shadeMiss; they only
-// store, trace and queue. Conditions select values rather than branch: on llvmpipe each value that differs between two branches costs
+// store, trace and queue. Conditions select values rather than branch: on CPUs each value that differs between two branches costs
 // two masked stores (tests/bench/EXPERIMENTS.md).
 #ifndef GLIM_ACCESS_PATH_VERTEX
 #define GLIM_ACCESS_PATH_VERTEX

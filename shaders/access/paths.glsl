@@ -9,7 +9,7 @@
 #define DECLARE(qualifier, number, type, name) \
     layout(set = 0, binding = number, scalar) qualifier buffer name##Buffer { type name[]; }
 
-// Paths are read as texels: on llvmpipe, loading one word of a storage buffer costs as much as loading the four of a texel. A kernel that
+// Paths are read as texels: on CPUs, loading one word of a storage buffer costs as much as loading the four of a texel. A kernel that
 // updates a buffer stores values that depend on those it has read, so the reads come first
 // (KernelRulesTest).
 #define TEXELS(number, name) layout(set = 0, binding = number + kTexelsOf) uniform usamplerBuffer name

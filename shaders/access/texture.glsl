@@ -1,5 +1,5 @@
-// Textures, filtered by hand: the samplers of drivers weigh with 8 bits and decode sRGB with errors of 1e-3, and Mesa 22.3 cannot choose
-// among images.
+// Textures, filtered by hand: the samplers of drivers weigh with 8 bits and decode sRGB with errors of 1e-3, and some cannot choose among
+// images (driver_bugs.md).
 #ifndef GLIM_ACCESS_TEXTURE
 #define GLIM_ACCESS_TEXTURE
 
@@ -17,7 +17,7 @@ TEXEL_VIEW(5);
 TEXEL_VIEW(6);
 TEXEL_VIEW(7);
 
-// Four bytes. The views have names instead of an index, since Mesa 22.3 cannot choose one by a variable.
+// Four bytes. The views have names instead of an index, since some drivers cannot choose one by a variable (driver_bugs.md).
 uvec4 fetchTexel(uint texel)
 {
     uint view = kTexelViews > 1u ? texel >> kTexelViewBits : 0u;

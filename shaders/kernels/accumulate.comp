@@ -68,7 +68,7 @@ void addPixel(PassPixel from)
         sums = emptyBlock();  // the host fills new blocks with zeros
     }
     // One iteration more than there are samples, for the block that ends with the pass. So the code that folds into the page exists once;
-    // llvmpipe compiles a load and a store for each of its words, at some 10 ms each.
+    // CPU drivers compile a load and a store for each of its words, at some 10 ms each.
     for (uint i = 0u; i <= pass.sampleCount; ++i) {
         bool ends = (pass.accumulate & kEndsBlock) != 0u;
         if (i < pass.sampleCount) {

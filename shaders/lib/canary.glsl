@@ -2,8 +2,7 @@
 #ifndef GLIM_LIB_CANARY
 #define GLIM_LIB_CANARY
 
-// Mesa's llvmpipe before 24 gives an invocation group 65,535 loop iterations in all; once they are spent, every loop runs
-// once, silently. `steps` must be 3 and unknown to the compiler. True if the budget is spent.
+// Some drivers have a loop budget (driver_bugs.md): once it is spent, every loop runs once, silently. `steps` must be 3 and unknown to the compiler. True if the budget is spent.
 bool isLoopBudgetSpent(uint steps)
 {
     uint done = 0u;

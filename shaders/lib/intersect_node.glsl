@@ -49,7 +49,7 @@ Grid makeGrid(uvec4 head, vec3 origin, vec3 reciprocal)
 }
 
 // Whether the ray meets child number shift / 8 of four. Signed integer min and max of the floats' bits take one instruction each on
-// llvmpipe instead of three. They order two floats correctly unless both are negative. Then they may pick the wrong one, but that is
+// a CPU instead of three. They order two floats correctly unless both are negative. Then they may pick the wrong one, but that is
 // negative too: it loses against 0 (near) or fails the test (far).
 bool meetsChild(Slabs slabs, uint shift, Grid grid, int last)
 {

@@ -103,7 +103,7 @@ vec3 edgeFunctionsAccurately(vec2 a, vec2 b, vec2 c)
 }
 
 // Read as signed integers, only positive floats are above 0; read as unsigned integers, only negative floats are above this. Integer minima
-// and maxima are one instruction each on llvmpipe, those of floats three.
+// and maxima are one instruction each on a CPU, those of floats three.
 const uint kMinusZero = 0x80000000u;
 
 // Some are negative and some are positive.

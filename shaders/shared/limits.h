@@ -5,7 +5,8 @@
 
 GLIM_SHARED_BEGIN
 
-// The most levels of the traversal stack. At most 32, because Mesa unrolls no longer loops: in a loop, each level would be in memory.
+// The most levels of the traversal stack. At most 32, since some drivers unroll no longer loop
+// (driver_bugs.md): in a loop, each level would be in memory.
 GLIM_CONST uint kMaxStackLevels = 24u;
 
 // A pixel's samples come in blocks, aligned to the absolute sample index. Each block has a scramble of its own, and the variance is
@@ -14,12 +15,12 @@ GLIM_CONST uint kBlockSamples = 128u;
 GLIM_CONST uint kFirstBlockSamples = 32u;
 GLIM_CONST uint kPageSamples = 256u;
 
-// Primitive references that brute force tries per dispatch: Mesa before 24 stops loops after 65,535 iterations.
+// Primitive references that brute force tries per dispatch: some drivers have a loop budget (driver_bugs.md).
 GLIM_CONST uint kScanPrimitiveRefs = 8192u;
 
 // Once a thread of trace_paths has visited nodes and tested primitives kStepsPerThread times, it begins no further ray. What is left goes
-// into the next dispatch. Eight lanes of Mesa before 24 have 65,535 iterations together. With ten million triangles, the first dispatch
-// after a cheap sky takes .12 s on two cores; with 4096 steps it would take .35 s. 256 steps take up to a sixth longer in all.
+// into the next dispatch. Some drivers have a loop budget for all lanes together (driver_bugs.md). With ten million triangles, the first
+// dispatch after a cheap sky takes .12 s on two cores; with 4096 steps it would take .35 s. 256 steps take up to a sixth longer in all.
 GLIM_CONST uint kStepsPerThread = 512u;
 
 // How a device rounds is told by so many inputs of so many operations (probe_arithmetic).

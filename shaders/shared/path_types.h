@@ -170,8 +170,8 @@ struct Pass {
     uint sizes;       // kSizesPaths | kSizesShadow, or kSizesShares
 };
 
-// What stays the same during a render. In a storage buffer: Mesa compiles kernels anew for the values of a uniform one
-// (tests/bench/EXPERIMENTS.md).
+// What stays the same during a render. In a storage buffer: some drivers compile kernels anew for the values of a
+// uniform one (driver_bugs.md).
 struct RenderParameters {
     FlatCamera camera;
     uint width, height;

@@ -61,7 +61,7 @@ GLIM_CONST uint kLobeCoat = 2u;
 GLIM_CONST uint kLobeSheen = 3u;
 GLIM_CONST uint kLobeThrough = 4u;  // diffuse transmission
 
-// Materials, lights and nodes of lights are read as texels too (scene.glsl): on llvmpipe, loading one word of a storage buffer costs as
+// Materials, lights and nodes of lights are read as texels too (scene.glsl): on CPUs, loading one word of a storage buffer costs as
 // much as loading the four of a texel. So structs are whole texels, and each vec3 shares one with a scalar.
 GLIM_CONST uint kMaterialTexels = 3u;
 GLIM_CONST uint kPrincipledTexels = 4u;

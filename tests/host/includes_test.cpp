@@ -194,9 +194,20 @@ void findWordDefects(const Source& source, std::vector<std::string>& defects)
     if (part(source.path, 1) != "access" && std::regex_search(code, kResource)) {
         defects.push_back(source.path + ": declares a resource, which only shaders/access does");
     }
-    // Off by 1.6e-4 and 3.9e-4 on Mesa's software driver.
+    // Off by 1.6e-4 and 3.9e-4 on a software driver.
     if (std::regex_search(code, kArcus)) {
         defects.push_back(source.path + ": uses acos or asin, which drivers compute too coarsely; use atan");
+    }
+}
+
+// What holds for one driver stands in the file of device classes and in the list of driver bugs.
+void findDriverNames(const Source& source, std::vector<std::string>& defects)
+{
+    static const std::regex kDriver(R"(\b(llvmpipe|lavapipe|SwiftShader|Mesa|RADV)\b)");
+    static const std::regex kMayNameThem(R"(.*\.md|host/gpu/device_class\.[ch]pp|tests/host/(device_class|includes)_test\.cpp|tools/.*)");
+    std::smatch match;
+    if (!std::regex_match(source.path, kMayNameThem) && std::regex_search(source.text, match, kDriver)) {
+        defects.push_back(source.path + ": names the driver " + match[1].str());
     }
 }
 
@@ -273,6 +284,7 @@ std::vector<std::string> findDefects(const std::vector<Source>& sources)
     for (const Source& source : sources) {
         findIncludeDefects(source, defects);
         findWordDefects(source, defects);
+        findDriverNames(source, defects);
     }
     return defects;
 }
@@ -325,6 +337,8 @@ TEST(Includes, WhatIsAllowedPasses)
              Example{"host/preview/panels.cpp", "#include <imgui.h>\n"},
              Example{"shaders/lib/warp.glsl", "#include \"shared/limits.h\"\n#include \"sphere.glsl\"\n// uniform, acos\n"},
              Example{"shaders/access/scene.glsl", "#include \"lib/warp.glsl\"\nreadonly buffer B { float b[]; };\n"},
+             Example{"host/gpu/device_class.cpp", "// llvmpipe, SwiftShader\n"},
+             Example{"host/gpu/instance.cpp", "throw DeviceError(\"Debian's mesa-vulkan-drivers\");\n"},
              Example{"shaders/shared/types.h", "#include \"vocabulary.h\"\n#include <cstdint>\n"},
          }) {
         for (const std::string& defect : findDefects({{path, text}})) {
@@ -368,6 +382,8 @@ TEST(Includes, EveryViolationIsFound)
              Example{"shaders/kernels/bounce.comp", "layout(binding = 0) buffer B { float b[]; };\n"},
              Example{"shaders/lib/warp.glsl", "float f(float x) { return acos(x); }\n"},
              Example{"shaders/kernels/bounce.comp", "/* a */ float y = asin(1.0); // b\n"},
+             Example{"shaders/access/scene.glsl", "// llvmpipe reads words slowly\n"},
+             Example{"tests/kernels/mis_test.cpp", "// as Mesa does\n"},
              Example{"host/cli/render.cpp", "#include <CLI/CLI.hpp>\n"},
              Example{"host/main.cpp", "#include <CLI/CLI.hpp>\n"},
              Example{"tests/host/merge_test.cpp", "#include <CLI/CLI.hpp>\n"},

@@ -15,7 +15,7 @@ std::vector<uvec2> countTo(std::uint32_t steps)
     return test.results<uvec2>();
 }
 
-// H42: either the loop ran to its end or the canary says that it did not. Mesa 22.3.6 stops at 65,535 iterations.
+// H42: either the loop ran to its end or the canary says that it did not. Some stop at 65,535 iterations.
 TEST(CanaryTest, H42ReportsALoopThatTheDriverCutShort)
 {
     for (const uvec2& lane : countTo(70000)) {

@@ -1,4 +1,4 @@
-// One thread is one stream of luminances, of which it adds the next `sampleCount`: more would spend Mesa's loop budget.
+// One thread is one stream of luminances, of which it adds the next `sampleCount`: more would spend the loop budget of some drivers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"

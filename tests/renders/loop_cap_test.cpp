@@ -15,7 +15,7 @@ namespace {
 
 class LoopCapTest : public testing::TestWithParam<test::Named<Schedule>> {};
 
-// A ray meets all of 100,000 coincident triangles, more than Mesa 22.3.6 allows a loop: the render is refused, or right.
+// A ray meets all of 100,000 coincident triangles, more than some drivers allow a loop: the render is refused, or right.
 TEST_P(LoopCapTest, H42EndsTheRender)
 {
     SceneBuilder builder;

@@ -46,7 +46,7 @@ inline Film simulateFilm(std::uint32_t begin, std::uint32_t end, std::uint32_t s
     film.sampleRanges = {{begin, end}};
     film.identity = {"3f2a", "bounces=64 sampler=sobol", seed};
     film.seconds = 0.1 * (end - begin);
-    film.device = "llvmpipe";
+    film.device = "a device";
     film.sceneFile = "scenes/box.gltf";
     for (std::uint32_t first = begin; first < end;) {
         const std::uint32_t pageEnd = std::min(end, (first / kPageSamples + 1) * kPageSamples);

@@ -15,7 +15,7 @@ TEXELS_OF = int(re.search(r"kTexelsOf = (\d+)u", (SHADERS / "shared/bindings.h")
 INLINE = ["--merge-return", "--inline-entry-points-exhaustive", "--eliminate-dead-functions"]
 # Each value has one definition, and variables that calls do not see are gone.
 PROMOTE = ["--merge-return", "--scalar-replacement=0", "--ssa-rewrite", "--ccp", "--eliminate-dead-branches", "--eliminate-dead-code-aggressive"]
-# Values that leave a loop without being carried, by function. Pictures with them are the same on Mesa 22.3.6 and 25.0.7: a lane computes them
+# Values that leave a loop without being carried, by function. Pictures with them are the same on drivers with and without that bug: a lane computes them
 # again from what stays as it was in its last iteration.
 ESCAPING = {"traceThroughAlpha": 4, "traceLightThroughAlpha": 1, "findEntry": 1, "chooseCausticLight": 1, "chooseInfiniteLight": 1, "evalInterface": 1}
 
