@@ -256,6 +256,7 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
     info.ppEnabledExtensionNames = &swapchain;
     check(vkCreateDevice(physical_, &info, nullptr, &handle_), "open device \"" + description_.name + "\"");
     vkGetDeviceQueue(handle_, queueFamily_, 0, &queue_);
+    pipelines_.emplace(physical_, handle_);
     setObjectName_ =
         reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(vkGetInstanceProcAddr(instance.handle(), "vkSetDebugUtilsObjectNameEXT"));
     reused_ = std::make_unique<Reused>(*this);
@@ -264,6 +265,7 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
 Device::~Device()
 {
     reused_.reset();
+    pipelines_.reset();
     vkDestroyDevice(handle_, nullptr);
 }
 

@@ -4,6 +4,7 @@
 #include "host/gpu/arithmetic.hpp"
 #include "host/gpu/device_class.hpp"
 #include "host/gpu/instance.hpp"
+#include "host/gpu/pipeline_cache.hpp"
 
 #include <memory>
 #include <optional>
@@ -65,6 +66,8 @@ public:
     VkQueue queue() const { return queue_; }
     std::uint32_t queueFamily() const { return queueFamily_; }
     const Arithmetic& arithmetic() const { return description_.arithmetic; }
+    PipelineCache& pipelines() { return *pipelines_; }
+    const PipelineCache& pipelines() const { return *pipelines_; }
 
     // As findMemoryType below. `chosen` receives the properties. Throws DeviceError if there is none.
     std::uint32_t findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred,
@@ -85,6 +88,7 @@ private:
     DeviceDescription description_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice handle_ = VK_NULL_HANDLE;
+    std::optional<PipelineCache> pipelines_;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queueFamily_ = 0;
     bool mapsShared_;

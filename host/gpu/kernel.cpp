@@ -132,7 +132,8 @@ Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const S
     info.stage.module = module.get();
     info.stage.pName = "main";
     info.layout = layout.pipelineLayout();
-    check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, pipeline_.receive()), "compile kernel " + name_);
+    const VkPipelineCache cache = layout.device().pipelines().handle();
+    check(vkCreateComputePipelines(device, cache, 1, &info, nullptr, pipeline_.receive()), "compile kernel " + name_);
     layout.device().setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_.get()), name_);
 }
 

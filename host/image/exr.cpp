@@ -1,7 +1,7 @@
 #include "host/image/exr.hpp"
 
+#include "host/atomic_file.hpp"
 #include "host/error.hpp"
-#include "host/image/atomic_file.hpp"
 #include "host/image/exr_header.hpp"
 #include "host/input_file.hpp"
 #include "host/memory.hpp"

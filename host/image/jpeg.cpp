@@ -1,7 +1,7 @@
 #include "host/image/picture_file.hpp"
 
+#include "host/atomic_file.hpp"
 #include "host/error.hpp"
-#include "host/image/atomic_file.hpp"
 #include "host/image/jpeg_errors.hpp"
 
 #include <cstdlib>

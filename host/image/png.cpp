@@ -1,7 +1,7 @@
 #include "host/image/png.hpp"
 
+#include "host/atomic_file.hpp"
 #include "host/error.hpp"
-#include "host/image/atomic_file.hpp"
 #include "host/image/srgb.hpp"
 
 #include <png.h>

@@ -1,6 +1,6 @@
 #include "host/image/picture_file.hpp"
 
-#include "host/image/atomic_file.hpp"
+#include "host/atomic_file.hpp"
 
 #include <webp/encode.h>
 

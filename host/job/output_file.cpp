@@ -1,7 +1,7 @@
 #include "host/job/output_file.hpp"
 
+#include "host/atomic_file.hpp"
 #include "host/error.hpp"
-#include "host/image/atomic_file.hpp"
 #include "host/text.hpp"
 
 namespace fs = std::filesystem;

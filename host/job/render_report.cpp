@@ -179,6 +179,7 @@ Json statisticsOf(const RenderReport& report)
               {"build", report.prepared.buildSeconds},
               {"upload", s.uploadSeconds},
               {"compile", s.compileSeconds},
+              {"firstPass", s.firstPassSeconds},
               {"render", s.renderSeconds},
               {"write", report.writeSeconds},
               {"ids", report.idSeconds}}},
@@ -332,8 +333,9 @@ void printSummary(const RenderReport& report, std::ostream& out)
                   static_cast<double>(s.samples + s.resumedSamples) / pixels)
         << (s.resumedSamples > 0 ? format(", of which %.4g resumed,", static_cast<double>(s.resumedSamples) / pixels) : "")
         << rangeText(report)
-        << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s)", s.renderSeconds, 1e-6 * perSecond(s.samples, s.renderSeconds),
-                  1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds))
+        << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s; first pass after %.2f s)", s.renderSeconds,
+                  1e-6 * perSecond(s.samples, s.renderSeconds), 1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds),
+                  s.firstPassSeconds)
         << causticsText(report) << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind
         << ")\n";
     printSuspects(report, out);

@@ -33,9 +33,9 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
       course(of, scene, asked),
       compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked, of.description().deviceClass))
                    ? std::move(kernels)
-                   : std::make_shared<CompiledKernels>(of, scene, camera, asked, schedule))
+                   : compile(scene, camera))
 {
-    compile();
+    runOnce();
 }
 
 RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked,
@@ -65,8 +65,8 @@ void RenderResources::adapt(const FlatScene& scene, const FlatCamera& camera)
     }
     std::swap(compiled, spare);
     if (!compiled || !serves(kernels().specialization, needed)) {
-        compiled = std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule);
-        compile();
+        compiled = compile(scene, camera);
+        runOnce();
     }
 }
 
@@ -93,8 +93,17 @@ std::unique_ptr<SplatBuffer> RenderResources::makeSplatBuffer(std::uint32_t coun
     return std::make_unique<SplatBuffer>(device, compiled->layout, constants(), shared->paths, count);
 }
 
+std::shared_ptr<const CompiledKernels> RenderResources::compile(const FlatScene& scene, const FlatCamera& camera)
+{
+    const auto start = Clock::now();
+    auto kernels = std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule);
+    compileSeconds += secondsSince(start);
+    device.pipelines().write();  // now, since programs that render for long may be killed
+    return kernels;
+}
+
 // Some drivers compile a kernel at its first dispatch. This one has nothing to do, so that no timed dispatch pays for that.
-void RenderResources::compile()
+void RenderResources::runOnce()
 {
     const auto start = Clock::now();
     const std::unique_ptr<Tile> tile = makeTile(0, 1);
@@ -109,7 +118,7 @@ void RenderResources::compile()
                           std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
     }
     commands.submitAndWait();
-    compileSeconds = secondsSince(start);
+    compileSeconds += secondsSince(start);
 }
 
 void RenderResources::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const

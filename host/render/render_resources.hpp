@@ -72,15 +72,17 @@ struct RenderResources {
     const std::shared_ptr<SharedResources> shared;
     DeviceParameters parameters;
     const CourseEstimators course;
-    std::shared_ptr<const CompiledKernels> compiled, spare;
     double compileSeconds = 0.0;
+    std::shared_ptr<const CompiledKernels> compiled, spare;
     std::map<std::string, KernelStatistics> statistics;
     PassHistory history{.rounds = schedule == Schedule::Persistent ? 1U : 8U};
 
 private:
     RenderResources(Device& device, std::shared_ptr<SharedResources> shared, std::shared_ptr<const CompiledKernels> kernels,
                     const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
-    void compile();
+    // Both add to compileSeconds.
+    std::shared_ptr<const CompiledKernels> compile(const FlatScene& scene, const FlatCamera& camera);
+    void runOnce();
     BufferMap constants() const;
 };
 

@@ -175,6 +175,9 @@ bool Renderer::trace(const CameraPass& planned, const std::function<bool()>& sho
     if (!seconds) {
         return false;
     }
+    if (statistics_.samples == 0) {
+        statistics_.firstPassSeconds = statistics_.uploadSeconds + statistics_.compileSeconds + secondsSinceStart();
+    }
     statistics_.samples += planned.paths();
     addSeconds(*seconds);
     passSize_.learn(planned.paths(), *seconds);

@@ -1,4 +1,4 @@
-#include "host/image/atomic_file.hpp"
+#include "host/atomic_file.hpp"
 #include "host/error.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -70,6 +70,23 @@ TEST(AtomicFile, KeepsTheOldFileAndNothingElseWhenTheDiskIsFull)
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(readFileBytes(path), "old");
     EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(AtomicFile, APrivateOneIsForItsUserAloneAndFollowsNoLink)
+{
+    const ScratchFolder folder;
+    const auto path = folder / "cache";
+    writeText(path, "old");
+    ASSERT_EQ(chmod(path.c_str(), 0666), 0);
+    AtomicFile file(path, FileAccess::Private);
+    file.write("new", 3);
+    file.commit();
+    EXPECT_EQ(readFileBytes(path), "new");
+    struct stat status = {};
+    ASSERT_EQ(stat(path.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777U, 0600U);
+    std::filesystem::create_symlink(path, folder / "link");
+    expectRefusal<InputError>([&] { AtomicFile link(folder / "link", FileAccess::Private); }, MessageId::Cycle, {.file = "link"});
 }
 
 TEST(AtomicFile, TwoAtOnceDoNotMeet)

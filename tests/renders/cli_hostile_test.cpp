@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sys/stat.h>
-
 namespace glim::test {
 namespace {
 
@@ -22,29 +20,6 @@ GlimRun runLimited(unsigned kibibytes, const std::vector<std::string>& arguments
     call.arguments = {"-c", "ulimit -v " + std::to_string(kibibytes) + " && exec \"$0\" \"$@\"", GLIM_BINARY};
     call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
     return runGlim(call);
-}
-
-GlimCall smallRender(const ScratchFolder& folder, const std::vector<std::string>& options)
-{
-    GlimCall call;
-    call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "x.exr", "--size", "8x8"};
-    call.arguments.insert(call.arguments.end(), options.begin(), options.end());
-    call.folder = folder.path();
-    return call;
-}
-
-TEST(CommandLineTest, ACacheThatIsNoFileCountsAsMissing)
-{
-    const ScratchFolder folder;
-    fs::create_directories(folder / "folder/schedules.json");
-    fs::create_directories(folder / "pipe");
-    ASSERT_EQ(mkfifo((folder / "pipe/schedules.json").c_str(), 0600), 0);
-    for (const char* cache : {"folder", "pipe"}) {
-        GlimCall call = smallRender(folder, {"--samples", "0:1000000", "--time", ".01"});
-        call.environment["GLIM_CACHE_DIR"] = cache;
-        const GlimRun run = runGlim(call);
-        EXPECT_EQ(run.exitCode, 0) << cache << ": " << run.err;
-    }
 }
 
 TEST(CommandLineTest, TooLittleMemoryNamesTheFileAndTheAmount)

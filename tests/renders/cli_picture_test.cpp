@@ -257,6 +257,10 @@ TEST(CommandLineTest, StatisticsAreCompleteAndSane)
         EXPECT_GT(s.at("seconds").at(stage), 0.0) << stage;
         EXPECT_LT(s.at("seconds").at(stage), 100.0) << stage;
     }
+    const double upload = s.at("seconds").at("upload"), compile = s.at("seconds").at("compile"), first = s.at("seconds").at("firstPass");
+    EXPECT_GT(compile, upload) << "making the kernels' pipelines is part of their compilation";
+    EXPECT_GT(first, upload + compile);
+    EXPECT_LT(first, upload + compile + s.at("seconds").at("render").get<double>());
     EXPECT_GE(s.at("rays").at("closest"), 16 * 8 * 64);
     EXPECT_GT(s.at("rays").at("shadow"), 0);
     EXPECT_EQ(s.at("rays").at("total"), s.at("rays").at("closest").get<int>() + s.at("rays").at("shadow").get<int>());

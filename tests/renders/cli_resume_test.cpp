@@ -1,5 +1,5 @@
 // --checkpoint and --resume: whatever ends a render, the same command goes on with the bits of one run.
-#include "host/image/atomic_file.hpp"
+#include "host/atomic_file.hpp"
 #include "host/image/exr.hpp"
 #include "host/render/film_file.hpp"
 #include "shaders/shared/limits.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace glim {
 namespace {
 
@@ -33,6 +35,7 @@ private:
 
 Device& testDevice()
 {
+    [[maybe_unused]] static const int nothingIsKept = setenv("GLIM_CACHE_DIR", "", 1);
     static const VulkanInstance instance;
     static Device device(instance);
     [[maybe_unused]] static const bool watched = [] {

@@ -1,4 +1,4 @@
-#include "host/image/atomic_file.hpp"
+#include "host/atomic_file.hpp"
 
 #include "host/error.hpp"
 #include "host/fingerprint.hpp"
@@ -40,6 +40,9 @@ bool mayWrite(const fs::path& path) { return faccessat(AT_FDCWD, path.c_str(), W
 
 void checkTarget(const fs::path& path, const fs::path& target)
 {
+    if (path.empty()) {
+        throw InputError(MessageId::Missing, {"An empty file name cannot be written."});
+    }
     std::error_code error;
     const fs::path folder = folderOf(target);
     const fs::file_status folderStatus = fs::status(folder, error);
@@ -51,7 +54,7 @@ void checkTarget(const fs::path& path, const fs::path& target)
     }
     const fs::file_status status = fs::status(target, error);
     if (fs::is_symlink(target, error)) {
-        refuse(path, MessageId::Cycle, {"its links lead in a circle"});
+        refuse(path, MessageId::Cycle, {"its links are not followed, or lead in a circle"});
     }
     if (fs::is_directory(status) || !target.has_filename()) {
         refuse(path, MessageId::WrongType, {"it is ", part::value("a folder")});
@@ -160,26 +163,22 @@ bool isFileAt(const fs::path& path, int descriptor)
     return fstat(descriptor, &open) == 0 && stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-void checkWritable(const fs::path& path)
-{
-    if (path.empty()) {
-        throw InputError(MessageId::Missing, {"An empty file name cannot be written."});
-    }
-    checkTarget(path, followLinks(path));
-}
+void checkWritable(const fs::path& path) { checkTarget(path, followLinks(path)); }
 
-AtomicFile::AtomicFile(const fs::path& path)
-    : name_(path),
-      target_(followLinks(path))
+AtomicFile::AtomicFile(const fs::path& path, FileAccess rights)
+    : access_(rights),
+      name_(path),
+      target_(rights == FileAccess::Private ? path : followLinks(path))
 {
-    checkWritable(path);
+    checkTarget(path, target_);
+    const mode_t mode = rights == FileAccess::Private ? S_IRUSR | S_IWUSR : 0666;
     const fs::path folder = folderOf(target_);
     // Has no name until it is whole, so nothing is left of it whatever happens. Some file systems lack this.
     const bool canLink = access("/proc/self/fd", X_OK) == 0;
-    descriptor_ = canLink ? open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+    descriptor_ = canLink ? open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode) : -1;
     if (descriptor_ < 0 && (!canLink || errno == EOPNOTSUPP || errno == EISDIR || errno == ENOENT)) {
-        temporary_ = nameBeside(target_, [this](const fs::path& name) {
-            descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        temporary_ = nameBeside(target_, [this, mode](const fs::path& name) {
+            descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
             // A leftover is not locked. Somebody may have taken the file for one just now.
             const bool isTaken = descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
             if (isTaken || (descriptor_ >= 0 && !isFileAt(name, descriptor_))) {
@@ -244,7 +243,9 @@ void AtomicFile::seek(std::uint64_t position)
 void AtomicFile::commit()
 {
     flush();
-    keepMode(descriptor_, target_);
+    if (access_ == FileAccess::ByUmask) {
+        keepMode(descriptor_, target_);
+    }
     if (fsync(descriptor_) != 0) {
         fail();
     }

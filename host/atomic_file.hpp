@@ -2,6 +2,8 @@
 // the disk, gives it a temporary name and renames it. It keeps the mode of the file that it replaces; a new one has that of the umask.
 // Without `commit` nothing remains, even of a killed process. One that is killed within `commit` may leave the temporary name, which the
 // next write to the target removes.
+//
+// A private file is for its user alone (mode 0600, whatever was there), and no link of its name is followed: that is refused.
 #pragma once
 
 #include <cstddef>
@@ -26,9 +28,11 @@ std::filesystem::path hiddenBeside(const std::filesystem::path& target, const st
 // Whether the open file is still the one of this name.
 bool isFileAt(const std::filesystem::path& path, int descriptor);
 
+enum class FileAccess { ByUmask, Private };
+
 class AtomicFile {
 public:
-    explicit AtomicFile(const std::filesystem::path& path);
+    explicit AtomicFile(const std::filesystem::path& path, FileAccess rights = FileAccess::ByUmask);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -44,6 +48,7 @@ private:
     void flush();
     [[noreturn]] void fail() const;  // throws InputError with the reason from errno
 
+    FileAccess access_;
     std::filesystem::path name_;       // as the caller gave it, for messages
     std::filesystem::path target_;     // after following symbolic links, which stay as they are
     std::filesystem::path temporary_;  // empty while the file has no name
