@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <iterator>
 #include <thread>
 
@@ -159,20 +158,23 @@ bool isNamedBy(const std::string& choice, std::size_t index, const DeviceDescrip
     return lowerCase(description.name).find(lowerCase(choice)) != std::string::npos;
 }
 
+std::vector<VkExtensionProperties> deviceExtensions(VkPhysicalDevice physical)
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), "list extensions");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data()), "list extensions");
+    return extensions;
+}
+
 bool canPresent(const Candidate& candidate, VkSurfaceKHR surface)
 {
     if ((queueFamilies(candidate.physical).at(candidate.queueFamily).queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) {
         return false;  // panels are drawn by a graphics pipeline
     }
-    std::uint32_t count = 0;
-    check(vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, nullptr), "list extensions");
-    std::vector<VkExtensionProperties> extensions(count);
-    check(vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, extensions.data()), "list extensions");
-    const bool swaps = std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-    });
     VkBool32 presents = VK_FALSE;
-    return swaps && vkGetPhysicalDeviceSurfaceSupportKHR(candidate.physical, candidate.queueFamily, surface, &presents) == VK_SUCCESS &&
+    return contains(deviceExtensions(candidate.physical), VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
+           vkGetPhysicalDeviceSurfaceSupportKHR(candidate.physical, candidate.queueFamily, surface, &presents) == VK_SUCCESS &&
            presents == VK_TRUE;
 }
 
@@ -251,9 +253,16 @@ Device::Device(const VulkanInstance& instance, const std::optional<std::string>&
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
-    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-    info.enabledExtensionCount = surface == VK_NULL_HANDLE ? 0 : 1;
-    info.ppEnabledExtensionNames = &swapchain;
+    std::vector<const char*> extensions;
+    if (surface != VK_NULL_HANDLE) {
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    }
+    constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";  // a device that lists it demands it
+    if (contains(deviceExtensions(physical_), kPortabilitySubset)) {
+        extensions.push_back(kPortabilitySubset);
+    }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check(vkCreateDevice(physical_, &info, nullptr, &handle_), "open device \"" + description_.name + "\"");
     vkGetDeviceQueue(handle_, queueFamily_, 0, &queue_);
     pipelines_.emplace(physical_, handle_);

@@ -72,7 +72,21 @@ void requireValidationLayer()
     }
 }
 
+std::vector<VkExtensionProperties> instanceExtensions()
+{
+    std::uint32_t count = 0;
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), "list the instance's extensions");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()), "list the instance's extensions");
+    return extensions;
+}
+
 }  // namespace
+
+bool contains(const std::vector<VkExtensionProperties>& extensions, const char* name)
+{
+    return std::ranges::any_of(extensions, [name](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
+}
 
 void check(VkResult result, const std::string& action)
 {
@@ -105,6 +119,11 @@ VulkanInstance::VulkanInstance(const std::vector<const char*>& extensions)
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages_.get());
     std::vector<const char*> enabledExtensions = extensions;
+    // Without it loaders hide drivers that lack a part of Vulkan, as MoltenVK does. glim needs none of these parts.
+    if (contains(instanceExtensions(), VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+        enabledExtensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+        info.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+    }
     const bool validation = wantsValidation();
     if (validation) {
         requireValidationLayer();

@@ -14,6 +14,8 @@ namespace glim {
 // Throws DeviceError "Vulkan could not <action>: <result>." unless `result` is a success. `action` is as in "create a buffer".
 void check(VkResult result, const std::string& action);
 
+bool contains(const std::vector<VkExtensionProperties>& extensions, const char* name);
+
 // GLIM_VALIDATION=1 in the environment turns on the validation layers with their synchronization checks. Every message is printed
 // to stderr and counted. If the layers are not installed, the constructor throws DeviceError: a check that does not run is no check.
 class VulkanInstance {
