@@ -122,6 +122,13 @@ bool measureKernels(Device& device, const BenchOptions& options, const std::stri
     RenderSettings settings = options.settings;
     settings.width = size.x;
     settings.height = size.y;
+    const std::uint32_t most = maxPathCapacity(settings, device.description());
+    if (std::uint64_t{size.x} * size.y > most) {
+        throw InputError(MessageId::DeviceLimit,
+                         {part::place("--size"), " ", part::value(std::to_string(size.x) + "x" + std::to_string(size.y)),
+                          ": all rays of a picture are traced at once, and device \"", device.description().name, "\" traces at most ",
+                          part::expected(std::to_string(most)), "."});
+    }
     settings.pathCapacity = std::max(choosePathCapacity(settings, device.description()), size.x * size.y);
     checkMemory(prepared, settings, device.description());
     const FlatCamera flat = flattenCamera(prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);

@@ -122,7 +122,8 @@ bool NlMeans::Work::runStep(const std::function<bool()>& shouldContinue)
         const double seconds = secondsSince(start);
         if (pass.count == most) {
             const double wanted = most * std::clamp(kDispatchSeconds / seconds, 0.25, 2.0);
-            most = std::clamp(static_cast<std::uint32_t>(wanted), kWorkgroup, denoiser_.device_.description().maxGroups * kWorkgroup);
+            const double allowed = std::min(0x1p31, static_cast<double>(denoiser_.device_.description().maxGroups) * kWorkgroup);
+            most = static_cast<std::uint32_t>(std::clamp(wanted, double{kWorkgroup}, allowed));
         }
     }
     thread_ = 0;

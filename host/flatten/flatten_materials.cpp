@@ -52,7 +52,7 @@ std::optional<glm::dvec4> oneColor(const DecodedImage& image)
     return image.rgba16.empty() ? find(image.rgba8, 255.0) : find(image.rgba16, 65535.0);
 }
 
-static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kTexelViewBits);
+static_assert(kMaxTextureBytes == (sizeof(std::uint32_t) * kMaxTexelViews) << kMaxTexelViewBits);
 
 std::size_t countTexels(const DecodedImage& image)
 {

@@ -88,6 +88,11 @@ void Buffer::allocate(const std::string& name)
                                                    ", but device \"", device_->description().name, "\" has no more memory (of ",
                                                    part::expected(megabytes(device_->description().memory)), ")."});
     }
+    if (result == VK_ERROR_TOO_MANY_OBJECTS) {
+        throw DeviceError(MessageId::DeviceLimit,
+                          {"The ", part::place(name), " need one more allocation of memory than device \"", device_->description().name,
+                           "\" allows (", part::expected(std::to_string(device_->description().maxAllocations)), ")."});
+    }
     check(result, "allocate the " + name);
     check(vkBindBufferMemory(device_->handle(), handle_.get(), memory_.get(), 0), "bind the memory of the " + name);
     if (mappable) {

@@ -109,10 +109,12 @@ Candidate describe(VkPhysicalDevice physical)
     d.subgroupSize = subgroup.subgroupSize;
     d.memory = largestLocalHeap(physical);
     d.maxAllocation = allocation.maxMemoryAllocationSize;
+    d.maxAllocations = limits.maxMemoryAllocationCount;
     d.maxStorageBuffer = limits.maxStorageBufferRange;
     d.maxTexelElements = limits.maxTexelBufferElements;
-    d.maxStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
-    d.maxTexelBuffers = limits.maxPerStageDescriptorSampledImages;
+    d.maxStorageBuffers = std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
+    d.maxTexelBuffers = std::min(limits.maxPerStageDescriptorSampledImages, limits.maxDescriptorSetSampledImages);
+    d.maxResources = limits.maxPerStageResources;
     d.maxWorkgroup = limits.maxComputeWorkGroupInvocations;
     d.maxGroups = limits.maxComputeWorkGroupCount[0];
     d.arithmetic.exact = !dividesExactly(driver.driverID);
@@ -307,6 +309,7 @@ std::uint32_t Device::findMemoryType(std::uint32_t allowed, VkMemoryPropertyFlag
 
 void Device::addMemory(std::int64_t bytes)
 {
+    allocations_ += bytes > 0 ? 1U : bytes < 0 ? -1U : 0U;
     memory_ += static_cast<std::uint64_t>(bytes);
     peakMemory_ = std::max(peakMemory_, memory_);
 }

@@ -21,10 +21,12 @@ struct DeviceDescription {
     std::uint32_t subgroupSize = 0;
     std::uint64_t memory = 0;             // bytes of the largest device-local heap
     std::uint64_t maxAllocation = 0;      // bytes in one allocation
+    std::uint32_t maxAllocations = 0;     // at a time
     std::uint64_t maxStorageBuffer = 0;   // bytes of a storage buffer that a kernel can address
     std::uint64_t maxTexelElements = 0;   // 16-byte texels of a texel buffer that a kernel can address
     std::uint32_t maxStorageBuffers = 0;  // per kernel
     std::uint32_t maxTexelBuffers = 0;    // per kernel
+    std::uint32_t maxResources = 0;       // per kernel: buffers and images of all kinds
     std::uint32_t maxWorkgroup = 0;       // invocations
     std::uint32_t maxGroups = 0;          // workgroups of one dispatch along x
     float nanosecondsPerTick = 0.0F;      // 0: no timestamps
@@ -76,9 +78,10 @@ public:
     // What submissions leave to the next ones (reused.hpp).
     Reused& reused() const { return *reused_; }
 
-    // Adds to the bytes of device memory in use. Buffers and images call it, with negative bytes when they free memory.
+    // Adds to the bytes of device memory in use. Buffers and images call it for each allocation, with negative bytes when they free it.
     void addMemory(std::int64_t bytes);
-    std::uint64_t peakMemory() const { return peakMemory_; }  // the most bytes in use so far
+    std::uint32_t allocations() const { return allocations_; }  // of buffers and images, not of the host's staging buffers
+    std::uint64_t peakMemory() const { return peakMemory_; }    // the most bytes in use so far
 
     // Names an object for a debugger, if one listens.
     void setName(VkObjectType type, std::uint64_t object, const std::string& name) const;
@@ -93,6 +96,7 @@ private:
     std::uint32_t queueFamily_ = 0;
     bool mapsShared_;
     std::uint64_t memory_ = 0, peakMemory_ = 0;
+    std::uint32_t allocations_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
     std::unique_ptr<Reused> reused_;
 };

@@ -59,6 +59,7 @@ KernelLayout::KernelLayout(const Device& device, const std::vector<BindingSlot>&
         std::count_if(slots.begin(), slots.end(), [](const BindingSlot& slot) { return hasStorage(slot.kind); }));
     refuseTooMany(device, "storage buffers", storage, device.description().maxStorageBuffers);
     refuseTooMany(device, "texel buffers", texelBindings_.size(), device.description().maxTexelBuffers);
+    refuseTooMany(device, "buffers and images", bindings_.size(), device.description().maxResources);
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = static_cast<std::uint32_t>(bindings_.size());
     setInfo.pBindings = bindings_.data();

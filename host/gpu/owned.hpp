@@ -61,8 +61,13 @@ public:
     {}
     OwnedMemory& operator=(OwnedMemory&&) = delete;
 
+    // VK_ERROR_TOO_MANY_OBJECTS if the device allows no more.
     VkResult allocate(const VkMemoryAllocateInfo& info)
     {
+        constexpr std::uint32_t kForStaging = 64;  // more than there are staging buffers
+        if (device_->allocations() + kForStaging >= device_->description().maxAllocations) {
+            return VK_ERROR_TOO_MANY_OBJECTS;
+        }
         const VkResult result = vkAllocateMemory(device_->handle(), &info, nullptr, memory_.receive());
         bytes_ = result == VK_SUCCESS ? info.allocationSize : 0;
         device_->addMemory(static_cast<std::int64_t>(bytes_));

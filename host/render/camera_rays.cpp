@@ -40,9 +40,9 @@ CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene&
       passSize_(scene, settings_, paths_.capacity()),
       parameters_(device, scene, camera, settings_),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + paths_.capacity() * sizeof(ChosenPixel)),
-      kernels_(kernels && serves(kernels->specialization, specialize(scene, camera, settings_, device.description().deviceClass))
+      kernels_(kernels && serves(kernels->specialization, specialize(scene, camera, settings_, device.description()))
                    ? std::move(kernels)
-                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_, device.description().deviceClass))),
+                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_, device.description()))),
       even_(bind(0)),
       odd_(bind(1))
 {

@@ -9,12 +9,6 @@ namespace glim {
 
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints)
 {
-    const std::uint64_t pathsAtOnce = std::uint64_t{device.maxGroups} * settings.workgroup;
-    if (settings.pathCapacity.value_or(0) > pathsAtOnce) {
-        throw InputError(MessageId::DeviceLimit, {"Device \"", device.name, "\" starts at most ", part::value(std::to_string(pathsAtOnce)),
-                                                  " paths at once, expected ", part::expected(std::to_string(*settings.pathCapacity)), " (",
-                                                  part::place("--path-capacity"), ")."});
-    }
     const std::uint64_t pixels = settings.pixelCount();
     const bool light = tracesLight(prepared.flat, settings);
     const std::uint64_t onDevice = sizeInBytes(prepared.flat) + PathBuffers::sizeInBytes(choosePathCapacity(settings, device)) +

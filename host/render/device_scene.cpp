@@ -3,6 +3,7 @@
 #include "shaders/shared/bindings.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace glim {
@@ -61,10 +62,16 @@ std::vector<uvec4> materialTexels(const FlatScene& scene)
 
 std::vector<Buffer> uploadImages(Device& device, const std::vector<std::uint32_t>& texels)
 {
-    constexpr std::size_t kPerView = std::size_t{1} << kTexelViewBits;
+    const std::size_t perView = std::size_t{1} << texelViewBits(device.description());
+    if (texels.size() > kMaxTexelViews * perView) {
+        throw DeviceError(MessageId::DeviceLimit,
+                          {"The ", part::place("scene's textures"), " need ", part::value(std::to_string(texels.size())),
+                           " texels, but device \"", device.description().name, "\" holds ",
+                           part::expected(std::to_string(kMaxTexelViews * perView)), "; --max-texture N scales them down."});
+    }
     std::vector<Buffer> views;
-    for (std::size_t first = 0; first < texels.size(); first += kPerView) {
-        const std::span<const std::uint32_t> part = std::span(texels).subspan(first, std::min(kPerView, texels.size() - first));
+    for (std::size_t first = 0; first < texels.size(); first += perView) {
+        const std::span<const std::uint32_t> part = std::span(texels).subspan(first, std::min(perView, texels.size() - first));
         views.emplace_back(device, "scene's textures", BufferKind::Texel4, part.size_bytes());
         upload(views.back(), part);
     }
@@ -75,6 +82,12 @@ std::vector<Buffer> uploadImages(Device& device, const std::vector<std::uint32_t
 }
 
 }  // namespace
+
+std::uint32_t texelViewBits(const DeviceDescription& device)
+{
+    const std::uint64_t texels = std::min(device.maxTexelElements, std::uint64_t{1} << kMaxTexelViewBits);
+    return static_cast<std::uint32_t>(std::bit_width(texels)) - 1;
+}
 
 DeviceTextures::DeviceTextures(Device& device, const FlatScene& scene)
     : images_(scene.images),

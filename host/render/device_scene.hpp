@@ -6,6 +6,9 @@
 
 namespace glim {
 
+// The texels of images that a buffer holds on this device are 2 to this power.
+std::uint32_t texelViewBits(const DeviceDescription& device);
+
 // The images and the environment map of a scene, on the device.
 class DeviceTextures {
 public:
@@ -18,7 +21,7 @@ public:
 private:
     std::shared_ptr<const PackedImages> images_;
     std::shared_ptr<const PackedEnvironment> environmentMap_;
-    std::vector<Buffer> imageViews_;  // 2^kTexelViewBits texels each
+    std::vector<Buffer> imageViews_;  // of texelViewBits
     Buffer environment_, environmentCells_;
 };
 

@@ -45,22 +45,24 @@ Specialization makeConstants(FeatureMask features)
     return {{kSpecFeatures, static_cast<std::uint32_t>(features)}, {kSpecUpperFeatures, static_cast<std::uint32_t>(features >> 32)}};
 }
 
-Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, DeviceClass deviceClass)
+Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, const DeviceDescription& device)
 {
     Specialization constants = makeConstants(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics));
     constants[kSpecWorkgroup] = settings.workgroup;
     constants[kSpecStackLevels] = scene.stackLevels;
-    constants[kSpecTexelViews] = static_cast<std::uint32_t>((scene.images->texels.size() >> kTexelViewBits) + 1);
+    const std::uint32_t viewBits = texelViewBits(device);
+    constants[kSpecTexelViewBits] = viewBits;
+    constants[kSpecTexelViews] = static_cast<std::uint32_t>((scene.images->texels.size() >> viewBits) + 1);
     constants[kSpecSobol] = settings.sampler == Sampler::Sobol;
     constants[kSpecLens] = camera.lensRight != vec3(0.0F);
     constants[kSpecChosen] = settings.adaptive != Adaptive::Off;
     constants[kSpecAov] = static_cast<std::uint32_t>(settings.aov);
     constants[kSpecSuspects] = settings.suspects > 0;
     constants[kSpecNotes] = settings.notes;
-    constants[kSpecPathsPerThread] = rulesOf(deviceClass).pathsPerThread;
+    constants[kSpecPathsPerThread] = rulesOf(device.deviceClass).pathsPerThread;
     constexpr std::uint32_t kSharedBytes = 16384;  // that every device has
     const std::uint32_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;
-    constants[kSpecSharedStack] = rulesOf(deviceClass).sharedStack && stackBytes <= kSharedBytes;
+    constants[kSpecSharedStack] = rulesOf(device.deviceClass).sharedStack && stackBytes <= kSharedBytes;
     return constants;
 }
 
@@ -73,7 +75,7 @@ bool serves(const Specialization& compiled, Specialization needed)
 
 KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
                      Schedule schedule)
-    : specialization(specialize(scene, camera, settings, layout.device().description().deviceClass))
+    : specialization(specialize(scene, camera, settings, layout.device().description()))
 {
     const Specialization &production = specialization, ofCourse = specializeCourse(production, settings);
     std::vector<std::future<void>> compiling;

@@ -20,7 +20,8 @@ struct CourseKernels {
 Specialization makeConstants(FeatureMask features);
 
 // The constants of the production kernels.
-Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, DeviceClass deviceClass);
+Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                          const DeviceDescription& device);
 
 // Whether kernels with the constants `compiled` do for those that are `needed`.
 bool serves(const Specialization& compiled, Specialization needed);

@@ -58,16 +58,22 @@ std::vector<BindingSlot> kernelSlots()
     return slots;
 }
 
+std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device)
+{
+    const std::uint64_t most =
+        std::min({std::uint64_t{device.maxGroups} * settings.workgroup, device.maxTexelElements / (kLargestOfPath / 16),
+                  std::min(device.maxStorageBuffer, device.maxAllocation) / kLargestOfPath});
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, kBlockSamples, 1U << 31U));
+}
+
 std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDescription& device)
 {
+    const std::uint32_t most = maxPathCapacity(settings, device);
     if (settings.pathCapacity) {
-        return *settings.pathCapacity;
+        return std::min(*settings.pathCapacity, most);
     }
-    const std::uint64_t ofLimits =
-        std::min({std::uint64_t{device.maxGroups} * settings.workgroup, device.maxTexelElements / (kLargestOfPath / 16),
-                  device.maxStorageBuffer / kLargestOfPath, device.memory / 8 / kPathBytes});
-    const std::uint64_t most = std::min<std::uint64_t>(rulesOf(device.deviceClass).pathCapacity, ofLimits);
-    return std::max(kBlockSamples, static_cast<std::uint32_t>(std::bit_floor(most)));
+    const auto ofMemory = static_cast<std::uint32_t>(std::min<std::uint64_t>(device.memory / 8 / kPathBytes, most));
+    return std::max(kBlockSamples, std::bit_floor(std::min(rulesOf(device.deviceClass).pathCapacity, ofMemory)));
 }
 
 PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)

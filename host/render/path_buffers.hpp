@@ -19,7 +19,9 @@ using BufferMap = std::map<std::uint32_t, const Buffer*>;
 // The binding slots of all kernels of a pass (shaders/kernels).
 std::vector<BindingSlot> kernelSlots();
 
-// The paths in flight: as many as are asked for, or else as suit the device's class, its limits and an eighth of its memory.
+// The most paths that a device's limits have room for.
+std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device);
+// The paths in flight: as many as are asked for, or else as suit the device's class and an eighth of its memory, within its limits.
 std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDescription& device);
 
 class PathBuffers {

@@ -47,7 +47,7 @@ public:
 
     // Whether anything may be missing because `shouldContinue` was false.
     bool isStopped() const { return stopped_; }
-    // Device seconds of what has run.
+    // Seconds of what has run, by the device's clock; if it has none, by the host's, and the longest may be of several dispatches.
     double longest() const { return longest_; }
     double total() const { return total_; }
 

@@ -31,9 +31,8 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
       shared(std::move(resources)),
       parameters(of, scene, camera, asked),
       course(of, scene, asked),
-      compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked, of.description().deviceClass))
-                   ? std::move(kernels)
-                   : compile(scene, camera))
+      compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked, of.description())) ? std::move(kernels)
+                                                                                                                  : compile(scene, camera))
 {
     runOnce();
 }
@@ -53,13 +52,13 @@ RenderResources::RenderResources(const RenderResources& other, const FlatScene& 
 
 bool RenderResources::hasKernels(const FlatScene& scene, const FlatCamera& camera) const
 {
-    const Specialization needed = specialize(scene, camera, settings, device.description().deviceClass);
+    const Specialization needed = specialize(scene, camera, settings, device.description());
     return serves(kernels().specialization, needed) || (spare && serves(spare->set.specialization, needed));
 }
 
 void RenderResources::adapt(const FlatScene& scene, const FlatCamera& camera)
 {
-    const Specialization needed = specialize(scene, camera, settings, device.description().deviceClass);
+    const Specialization needed = specialize(scene, camera, settings, device.description());
     if (serves(kernels().specialization, needed)) {
         return;
     }

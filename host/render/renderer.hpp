@@ -14,7 +14,7 @@ struct RenderStatistics {
     Schedule schedule = Schedule::Auto;  // the one used
     double uploadSeconds = 0.0, compileSeconds = 0.0, renderSeconds = 0.0;
     double firstPassSeconds = 0.0;  // from the upload to the end of the first pass: when there is a picture
-    double passSeconds = 0.0;       // device time of all passes; 0 if unknown
+    double passSeconds = 0.0;       // of all passes, on the device; by the host's clock if it has none
     std::map<std::string, KernelStatistics> kernels;
     double longestDispatch = 0.0;      // seconds, on the device, after compilation
     std::uint64_t samples = 0;         // over all pixels

@@ -26,6 +26,7 @@ const FeatureMask kInfiniteLights = kFeatureEnvironment | kFeaturePunctualLights
 
 layout(constant_id = kSpecStackLevels) const uint kStackLevels = kMaxStackLevels;
 layout(constant_id = kSpecTexelViews) const uint kTexelViews = kMaxTexelViews;
+layout(constant_id = kSpecTexelViewBits) const uint kTexelViewBits = kMaxTexelViewBits;
 layout(constant_id = kSpecPathsPerThread) const uint kPathsPerThread = 16u;
 layout(constant_id = kSpecSharedStack) const bool kSharedStack = false;
 layout(constant_id = kSpecSobol) const bool kSobol = true;

@@ -86,6 +86,7 @@ GLIM_CONST uint kSpecStackLevels = 23u;     // as many as the BVH needs
 GLIM_CONST uint kSpecTexelViews = 24u;      // as many as the textures need
 GLIM_CONST uint kSpecPathsPerThread = 25u;  // of the device's class
 GLIM_CONST uint kSpecSharedStack = 26u;     // of the device's class
+GLIM_CONST uint kSpecTexelViewBits = 27u;   // of the device's limit
 
 // Arbitrary output variables: what a picture shows, or a display of a film.
 GLIM_CONST uint kAovRadiance = 0u;

@@ -174,8 +174,9 @@ GLIM_CONST uint kWide = 0x40u;      // 16 bits per channel
 GLIM_CONST uint kSecondUv = 0x80u;  // texture coordinates of set 1
 GLIM_CONST uint kTransformed = 0x100u;
 
-// Texels of images: as many buffers of 2^kTexelViewBits texels of four bytes as the scene needs.
-GLIM_CONST uint kTexelViewBits = 27u;
+// Texels of images: as many buffers of 2^kTexelViewBits texels of four bytes as the scene needs. That is 2^kMaxTexelViewBits, or what the
+// device can address if that is less.
+GLIM_CONST uint kMaxTexelViewBits = 27u;
 GLIM_CONST uint kMaxTexelViews = 8u;
 
 // The table of albedos (access/albedo_table.glsl): texel (i, j) is (a, b at column i, a, b at column i + 1) of row j, for the fourth roots

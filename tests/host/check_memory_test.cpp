@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
 
-void check(std::uint64_t textureBytes, std::uint64_t deviceMemory, std::uint32_t pathCapacity = 1024)
+void check(std::uint64_t textureBytes, std::uint64_t deviceMemory)
 {
     PreparedScene prepared;
     prepared.scene.file = "a.glb";
@@ -21,7 +21,7 @@ void check(std::uint64_t textureBytes, std::uint64_t deviceMemory, std::uint32_t
     prepared.flat.images = images;
     RenderSettings settings;
     settings.width = settings.height = 16;
-    settings.pathCapacity = pathCapacity;
+    settings.pathCapacity = 1024;
     DeviceDescription device;
     device.name = "toy";
     device.deviceClass = DeviceClass::DiscreteGpu;
@@ -44,13 +44,6 @@ TEST(CheckMemoryTest, TexturesThatDoNotFitNameTheOption)
     };
     refused(8 * kMebibyte, 2 * kMebibyte, "8 MiB", true);
     refused(16, 1, "0 MiB", false);
-}
-
-TEST(CheckMemoryTest, PathsBeyondADispatchAreRefused)
-{
-    check(16, 64 * kMebibyte, 2048);
-    test::expectRefusal<InputError>([] { check(16, 64 * kMebibyte, 2049); }, MessageId::DeviceLimit,
-                                    {.place = "--path-capacity", .value = "2048", .expected = "2049"});
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ DeviceDescription roomy(DeviceClass deviceClass)
     DeviceDescription device;
     device.deviceClass = deviceClass;
     device.memory = std::uint64_t{80} << 30U;
-    device.maxStorageBuffer = std::uint64_t{4} << 30U;
+    device.maxStorageBuffer = device.maxAllocation = std::uint64_t{4} << 30U;
     device.maxTexelElements = std::uint64_t{1} << 27U;
     device.maxGroups = 0x7fffffffU;
     return device;
@@ -59,16 +59,26 @@ TEST(PathCapacityChoiceTest, IsBoundedByWhatTheDeviceHas)
     };
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.memory = std::uint64_t{4} << 30U; }), 1U << 21U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxStorageBuffer = 128U << 20U; }), 1U << 21U);
+    EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxAllocation = 128U << 20U; }), 1U << 21U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxTexelElements = 65536; }), 1U << 14U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxGroups = 65535; }), 1U << 21U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.memory = 1; }), kBlockSamples);
 }
 
-TEST(PathCapacityChoiceTest, IsWhatIsAskedFor)
+TEST(PathCapacityChoiceTest, IsWhatIsAskedForAsFarAsTheDeviceAllows)
 {
     RenderSettings settings;
     settings.pathCapacity = 12345;
-    EXPECT_EQ(choosePathCapacity(settings, roomy(DeviceClass::DiscreteGpu)), 12345U);
+    DeviceDescription device = roomy(DeviceClass::DiscreteGpu);
+    EXPECT_EQ(choosePathCapacity(settings, device), 12345U);
+    device.memory = 1;
+    EXPECT_EQ(choosePathCapacity(settings, device), 12345U);
+    device.maxGroups = 100;
+    EXPECT_EQ(choosePathCapacity(settings, device), 100 * settings.workgroup);
+    settings.pathCapacity = 1U << 20U;
+    device = roomy(DeviceClass::Software);
+    device.maxTexelElements = 65536;
+    EXPECT_EQ(choosePathCapacity(settings, device), 65536 / 3);  // the longest of a path in one buffer is three texels
 }
 
 }  // namespace

@@ -154,9 +154,12 @@ TEST(TextureTest, H36LookUpsAsInDouble)
     printHardCase("H36", "look-ups, all modes, 8 and 16 bits", static_cast<double>(cases.size()), "within " + figure(worst));
 }
 
-// Each of the eight views is read, at its own texels.
-TEST(TextureTest, TexelsOfEveryView)
+// Each of the eight views is read, at its own texels, however many a device's views have.
+class TexelViewTest : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(TexelViewTest, TexelsOfEveryView)
 {
+    const std::uint32_t bits = GetParam();
     constexpr std::uint32_t kTexels = 3;
     std::vector<Buffer> views;
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
@@ -170,7 +173,7 @@ TEST(TextureTest, TexelsOfEveryView)
     std::vector<Case> cases;
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
         for (std::uint32_t i = 0; i < kTexels; ++i) {
-            cases.push_back({0, glm::vec4(0.0F), view << kTexelViewBits | i});
+            cases.push_back({0, glm::vec4(0.0F), view << bits | i});
         }
     }
     const SceneOnDevice scene(makeTestScene(icosphere(0)));
@@ -180,7 +183,7 @@ TEST(TextureTest, TexelsOfEveryView)
             buffers[kBindTexels + view] = &views[view];
         }
         KernelTest test(test_kernels::texture_test);
-        test.buffers(buffers).buffers(scene.device.buffers()).specialize(kSpecTexelViews, bound);
+        test.buffers(buffers).buffers(scene.device.buffers()).specialize(kSpecTexelViews, bound).specialize(kSpecTexelViewBits, bits);
         test.cases(cases).resultsOf<Result>(cases.size()).run();
         const std::vector<Result> results = test.results<Result>();
         for (std::size_t i = 0; i < bound * kTexels; ++i) {
@@ -189,6 +192,8 @@ TEST(TextureTest, TexelsOfEveryView)
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Bits, TexelViewTest, testing::Values(2U, 16U, 26U, kMaxTexelViewBits));
 
 }  // namespace
 }  // namespace glim

@@ -196,6 +196,8 @@ TEST(BenchKernelsTest, NeedsNoScene)
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_TRUE(contains(run.out, "hills made in memory: 204802 triangles")) << run.out;
     expectBadInput({"bench", "--kernels", "--camera", "x"}, Id::UnknownName, {.file = "hills made in memory", .value = "x"});
+    expectBadInput({"bench", "--kernels", sceneFile("alpha.gltf"), "--size", "65535x65535"}, Id::DeviceLimit,
+                   {.place = "--size", .value = "65535x65535"});
     expectUsage({"bench", "--kernels", "--spp", "64"}, Id::Conflict, {.place = "--spp", .value = "--kernels"});
     expectBadInput({"bench", "--kernels", "--size", "16x16", "-o", "/nowhere/k.json"}, Id::FileMissing, {.file = "/nowhere/k.json"});
 }
