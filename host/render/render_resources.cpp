@@ -2,6 +2,7 @@
 
 #include "host/clock.hpp"
 #include "host/error.hpp"
+#include "host/render/check_infinities.hpp"
 #include "shaders/shared/bindings.h"
 
 #include <utility>
@@ -94,6 +95,7 @@ std::unique_ptr<SplatBuffer> RenderResources::makeSplatBuffer(std::uint32_t coun
 
 std::shared_ptr<const CompiledKernels> RenderResources::compile(const FlatScene& scene, const FlatCamera& camera)
 {
+    refuseLostInfinities(device);
     const auto start = Clock::now();
     auto kernels = std::make_shared<CompiledKernels>(device, scene, camera, settings, schedule);
     compileSeconds += secondsSince(start);
