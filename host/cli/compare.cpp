@@ -50,6 +50,13 @@ Relation relate(const CompareOptions& options, const Image& image, const Image& 
                                                                   : Relation::Independent;
 }
 
+// By the digests of their pixels; none unless glim wrote both.
+std::optional<bool> haveSameBits(const Image& a, const Image& b)
+{
+    const auto mine = a.attributes.find("glim:pixels"), other = b.attributes.find("glim:pixels");
+    return mine == a.attributes.end() || other == b.attributes.end() ? std::optional<bool>() : mine->second == other->second;
+}
+
 void checkCompareTargets(const CompareOptions& options)
 {
     const std::vector<std::filesystem::path> inputs{options.picture, options.reference, options.variance.value_or("")};
@@ -125,6 +132,7 @@ ExitCode runCompare(const CompareOptions& options)
     CompareReport report;
     report.result = compareImages(picture, reference);
     report.relation = relate(options, image, referenceImage, picture.radiance == reference.radiance);
+    report.sameBits = haveSameBits(image, referenceImage);
     if (report.relation == Relation::Independent && !picture.variance.empty() && !reference.variance.empty()) {
         report.test = zTest(picture, reference);
     }

@@ -170,7 +170,9 @@ void printTable(const CompareReport& report)
     if (report.test) {
         printTest(*report.test);
     } else if (report.relation == Relation::Identical) {
-        row("verdict") << "identical\n";
+        row("verdict") << (!report.sameBits  ? "identical\n"
+                           : *report.sameBits ? "the same bits\n"
+                                              : "identical colours; other variances or sample counts\n");
     } else if (report.relation == Relation::SharedSamples) {
         row("verdict") << "none: the two share samples, so their noise is not independent\n";
     }
@@ -180,6 +182,7 @@ void printJson(const CompareReport& report)
 {
     Json json = toJson(report.result, report.test);
     json.set("relation", getName(report.relation));
+    json.set("sameBits", report.sameBits ? Json(*report.sameBits) : Json());
     std::cout << json.dump(2) << '\n';
 }
 

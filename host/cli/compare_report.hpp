@@ -15,6 +15,7 @@ enum class Relation { Independent, SharedSamples, Identical };
 struct CompareReport {
     Comparison result;
     Relation relation = Relation::Independent;
+    std::optional<bool> sameBits;  // of two films: whether all sums of all pixels are equal (glim:pixels)
     std::optional<ZTest> test;
 };
 

@@ -210,6 +210,8 @@ TEST(CommandLineTest, ComparisonsTestNoNoiseThatIsShared)
         return json::parse(runGlim(call).out);
     };
     EXPECT_EQ(compare("a.exr").at("relation"), "identical");
+    EXPECT_TRUE(compare("a.exr").at("sameBits"));
+    EXPECT_FALSE(compare("more.exr").at("sameBits"));
     EXPECT_EQ(compare("more.exr").at("relation"), "shared samples");
     EXPECT_TRUE(compare("more.exr").at("z_test").is_null());
     EXPECT_EQ(compare("other.exr").at("relation"), "independent");
