@@ -170,7 +170,7 @@ void printTable(const CompareReport& report)
     if (report.test) {
         printTest(*report.test);
     } else if (report.relation == Relation::Identical) {
-        row("verdict") << (!report.sameBits  ? "identical\n"
+        row("verdict") << (!report.sameBits   ? "identical\n"
                            : *report.sameBits ? "the same bits\n"
                                               : "identical colours; other variances or sample counts\n");
     } else if (report.relation == Relation::SharedSamples) {

@@ -61,7 +61,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecNotes] = settings.notes;
     constants[kSpecPathsPerThread] = rulesOf(device.deviceClass).pathsPerThread;
     constexpr std::uint32_t kSharedBytes = 16384;  // that every device has
-    const std::uint32_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;
+    const std::uint64_t stackBytes = 2 * sizeof(std::uint32_t) * std::uint64_t{scene.stackLevels} * settings.workgroup;
     constants[kSpecSharedStack] = rulesOf(device.deviceClass).sharedStack && stackBytes <= kSharedBytes;
     return constants;
 }

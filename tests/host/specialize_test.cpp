@@ -21,6 +21,8 @@ const FeatureMask kFeatureMasks[] = {
     kFeaturePrincipled | kFeatureTextures | kFeatureNormalMaps | kFeatureEnvironment | kFeatureEnvironmentMap,
     kAllFeatures};
 
+constexpr Arithmetic kNative{.exact = false};
+
 TEST(SpecializeTest, KernelsStayValid)
 {
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);
@@ -31,8 +33,10 @@ TEST(SpecializeTest, KernelsStayValid)
     for (const EmbeddedShader* kernel : kKernels) {
         for (const FeatureMask features : kFeatureMasks) {
             SCOPED_TRACE(std::string(kernel->name) + " with features " + std::to_string(features));
-            const std::vector<std::uint32_t> words = specialize(*kernel, makeConstants(features));
-            EXPECT_TRUE(tools.Validate(words.data(), words.size(), options)) << message;
+            for (const Arithmetic& arithmetic : {kNative, Arithmetic{.declaresRounding = true}, Arithmetic{.adverse = 1}}) {
+                const std::vector<std::uint32_t> words = specialize(*kernel, makeConstants(features), arithmetic);
+                EXPECT_TRUE(tools.Validate(words.data(), words.size(), options)) << message;
+            }
         }
     }
 }
@@ -40,7 +44,7 @@ TEST(SpecializeTest, KernelsStayValid)
 // The size of the code decides how long drivers take to start. 2: measured 2.4.
 TEST(SpecializeTest, CodeThatASceneDoesNotNeedIsGone)
 {
-    const auto size = [](FeatureMask features) { return specialize(kernels::trace_paths, makeConstants(features)).size(); };
+    const auto size = [](FeatureMask features) { return specialize(kernels::trace_paths, makeConstants(features), kNative).size(); };
     EXPECT_LT(2 * size(kFeatureTriangleLights), size(kAllFeatures));
 }
 
@@ -48,7 +52,7 @@ TEST(SpecializeTest, BrokenCodeIsRefused)
 {
     const std::uint32_t words[] = {0x07230203, 0x00010500, 0, 10, 0, 0x00030000};
     const EmbeddedShader broken{"broken", words, words + 6};
-    EXPECT_ANY_THROW(specialize(broken, {}));
+    EXPECT_ANY_THROW(specialize(broken, {}, kNative));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(KernelRegistersTest, EachKernelIsCompiledAlone)
     const FlatScene flat = flattened(scene);
     const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F);
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
-    Specialization constants = specialize(flat, camera, {}, testDevice().description().deviceClass);
+    Specialization constants = specialize(flat, camera, {}, testDevice().description());
     constants[kSpecStackLevels] = 8;  // a large scene's
     for (const bool shared : {false, true}) {
         constants[kSpecSharedStack] = shared;
