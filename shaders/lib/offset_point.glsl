@@ -2,6 +2,8 @@
 #ifndef GLIM_LIB_OFFSET_POINT
 #define GLIM_LIB_OFFSET_POINT
 
+#include "finite.glsl"
+
 // The edges are summed first, so that only the last sum rounds at the size of v0. triangleErrorBound relies on that.
 vec3 trianglePoint(vec3 v0, vec3 e1, vec3 e2, vec2 barycentric)
 {
@@ -47,7 +49,7 @@ float nextAlong(float x, float side)
 {
     int bits = floatBitsToInt(x);
     float next = intBitsToFloat((side > 0.0) == (x > 0.0) ? bits + 1 : bits - 1);
-    float smallest = side > 0.0 ? 1.17549435e-38 : -1.17549435e-38;  // normal: denormals may be flushed
+    float smallest = side > 0.0 ? kSmallestNormal : -kSmallestNormal;
     return side == 0.0 ? x : x == 0.0 ? smallest : next;
 }
 

@@ -15,16 +15,17 @@ struct Case {
     float weight;
 };
 
-// H22: f^2 / (f^2 + g^2) in long double, over values whose squares leave float's range.
+// H22: f^2 / (f^2 + g^2) in long double, over values whose squares leave float's range. 1e-38 is denormal and counts as 0.
 TEST(MisTest, H22PowerHeuristicNeverOverflows)
 {
     const float infinity = std::numeric_limits<float>::infinity();
+    const std::vector<float> pdfs = {0.0F, 1e-38F, 0x1p-126F, 2e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity};
     std::vector<Case> cases;
-    for (const float f : {0.0F, 1e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity}) {
-        for (const float g : {0.0F, 1e-38F, 1e-20F, 0.3F, 1.0F, 7.0F, 1e19F, 1e30F, 3.4028235e38F, infinity}) {
-            const long double a = f, b = g;
+    for (const float f : pdfs) {
+        for (const float g : pdfs) {
+            const long double a = std::fpclassify(f) == FP_SUBNORMAL ? 0.0L : f, b = std::fpclassify(g) == FP_SUBNORMAL ? 0.0L : g;
             long double weight = a * a / (a * a + b * b);
-            if (f == 0.0F) {
+            if (a == 0.0L) {
                 weight = 0.0L;
             } else if (std::isinf(f)) {
                 weight = std::isinf(g) ? 0.5L : 1.0L;
