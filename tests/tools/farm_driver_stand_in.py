@@ -102,6 +102,6 @@ def without_dask():
 
 def make_driver(kind, picture, done=()):
     """kind: Driver, or a class made from it."""
-    options = SimpleNamespace(insecure=False, scheduler="tls://10.0.9.9:8786", slurm=None, dashboard=False)
+    options = SimpleNamespace(insecure=False, scheduler="tls://10.0.9.9:8786", slurm=None, devices=None, dashboard=False)
     progress = SimpleNamespace(say=print, add=lambda samples: None, show=lambda *about: None)
     return kind(picture, dict.fromkeys(done, "digest"), options, progress)

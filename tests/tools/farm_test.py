@@ -4,6 +4,7 @@ lists this test as skipped (exit code 77). The argument is glim's program."""
 
 import asyncio
 import base64
+import glob
 import json
 import os
 import random
@@ -220,6 +221,9 @@ class CommandTest(unittest.TestCase):
                             (["--local", "2", "--scheduler", "tcp://h:1"], "not allowed"), (["--tls-ca", "a"], "together"),
                             (["--png", "a.jpg"], ".png"), (["--exposure", "bright"], "stops from -100"),
                             (["--local", "9999"], "at most 1000"),
+                            (["--devices", "0,"], "as in 0,1"), (["--devices", "llvmpipe"], "as in 0,1"),
+                            (["--devices", "all", "--local", "2"], "not allowed"),
+                            (["--devices", "all", "--device", "1"], "each worker has its own"),
                             (["--insecure"], "always have TLS"), (["--dashboard", "--scheduler", "tls://h:1"], "a dashboard of its own"),
                             (["--slurm", "time=1:00", "-o", "a b.exr"], "cannot name")):
             with self.assertRaises(SystemExit) as caught, mock.patch("sys.stderr") as stderr:
@@ -239,6 +243,81 @@ class CommandTest(unittest.TestCase):
                                   stderr=subprocess.PIPE, text=True, check=False)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)
+
+
+class DevicesTest(FarmCase):
+    def choose(self, wanted, *kinds):
+        """Which are chosen of devices of these kinds; of those in capitals glim can use nothing."""
+        found = [{"kind": kind.lower(), "usable": kind.islower(), "name": kind} for kind in kinds]
+        with mock.patch.object(Glim, "run", return_value=json.dumps(found)):
+            return [device["index"] for device in Glim("glim", "/").devices(wanted)]
+
+    def test_which_devices(self):
+        self.assertEqual(self.choose("all", "software", "discrete", "DISCRETE", "integrated"), [1, 3])
+        self.assertEqual(self.choose("all", "software", "DISCRETE", "software"), [0, 2])
+        self.assertEqual(self.choose([2, 0, 2], "software", "discrete", "discrete"), [2, 0, 2])
+        for wanted, words in (([0, 2], "device 2 is not there"), ([1], "device 1 lacks what glim needs")):
+            with self.assertRaisesRegex(FarmError, words) as caught:
+                self.choose(wanted, "discrete", "DISCRETE")
+            self.assertEqual(caught.exception.code, 3)
+        with self.assertRaisesRegex(FarmError, "no device that glim can use"):
+            self.choose("all", "DISCRETE")
+
+    def two_devices(self):
+        """The driver of the tests twice, which makes two devices of one, as the loader has them."""
+        own = os.environ.get("VK_DRIVER_FILES") or glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")[0]
+        with open(own, encoding="utf-8") as file:
+            driver = json.load(file)
+        library = os.path.join(os.path.dirname(own), driver["ICD"]["library_path"])
+        if os.path.exists(library):  # else a name, which the system looks up
+            driver["ICD"]["library_path"] = library
+        paths = [self.path(name) for name in ("one.json", "two.json")]
+        for path in paths:
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(driver, file)
+        return dict.fromkeys(("VK_DRIVER_FILES", "VK_ICD_FILENAMES"), ":".join(paths))
+
+    def test_each_device_has_a_worker(self):
+        """Also after a worker has died."""
+        drivers = self.two_devices()
+        glim = self.program("""
+            device = page.job["device"]
+            if device == "1" and claim(FOLDER, "death"):
+                os.kill(page.worker, signal.SIGKILL)
+                time.sleep(600)
+            claim(FOLDER, "rendering-on-" + device)
+            wait_for(FOLDER, "rendering-on-0")
+            wait_for(FOLDER, "rendering-on-1")
+        """)
+        said = self.finish(self.start_farm("--devices", "all", glim=glim, **drivers))
+        self.assertRegex(said, "a worker on device 0, .*\n.*a worker on device 1, ")
+        self.assertEqual(said.count("is gone"), 1, said)
+        self.expect_whole()
+        self.assertIn("--devices: device 2 is not there", self.finish(self.start_farm("--devices", "2", **drivers), 3))
+
+    def test_devices_that_differ(self):
+        """A third one decides, as of hosts: they are one host, but it does not contradict itself."""
+        glim = self.program("""
+            if page.job["device"] == "0":
+                if not claim(FOLDER, "forged", page.samples):
+                    wait_for(FOLDER, "never")
+                wait_for(FOLDER, "both")
+                return page.forge()
+            if owner_of(FOLDER, "forged") == page.samples:
+                claim(FOLDER, "both")
+                wait_for(FOLDER, "other")
+            elif page.number == 7:
+                wait_for(FOLDER, "last")
+        """)
+        farm = self.start_farm("--devices", "0,1,1", glim=glim, **self.two_devices())
+        wait_until(lambda: os.path.lexists(self.path("claim-forged")), "the forger has a page")
+        forged = int(os.readlink(self.path("claim-forged")).partition(":")[0]) // PAGE
+        wait_until(lambda: any("/%05d." % forged in page for page in self.pages()), "the forged page is there")
+        self.open("other")
+        wait_until(lambda: "a third decides" in farm.stderr.readline(), "two devices differ")
+        self.open("last")
+        self.assertEqual(self.finish(farm).count("is not trusted any more"), 1)
+        self.expect_whole()
 
 
 class FilesTest(FarmCase):

@@ -42,6 +42,15 @@ def bands(text):
     return int(text)
 
 
+def devices(text):
+    """"all", or indices of `glim devices`."""
+    if text == "all":
+        return text
+    if not re.fullmatch("[0-9]{1,3}(,[0-9]{1,3})*", text) or text.count(",") >= MOST_LOCAL:
+        raise argparse.ArgumentTypeError("cannot use '%s', expected all, or indices of `glim devices`, as in 0,1" % text)
+    return [int(index) for index in text.split(",")]
+
+
 def frames(text):
     match = re.fullmatch("([0-9]{1,9}):([0-9]{1,9})", text)
     if not match or int(match[1]) > int(match[2]):
@@ -117,6 +126,8 @@ def make_parser():
     add("--fps", metavar="F", help="frames per second [24]")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--local", metavar="N", type=whole, default=1, help="worker processes on this machine [1]")
+    where.add_argument("--devices", metavar="all|A,B", type=devices,
+                       help="one worker for each device of this machine, or for those of `glim devices` with these indices")
     where.add_argument("--slurm", metavar="'NAME=VALUE ...'", type=slurm, help="jobs of Slurm with these options of sbatch, time among them")
     where.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this scheduler of Dask, as in tls://head:8786")
     add("--workers", metavar="A:B", type=bounds, help="with --slurm: at least A workers, and at most B [0:40]")
@@ -190,8 +201,10 @@ def refuse_combinations(parser, options):
     options.workers = options.workers or (0, 40)
     if options.insecure and not options.scheduler:
         parser.error("--insecure: expected --scheduler as well; workers that the farm starts always have TLS")
+    if options.devices and "device" in options.job:
+        parser.error("--devices: expected no --device, since each worker has its own")
     if options.dashboard and options.scheduler:
-        parser.error("--dashboard: expected --local or --slurm; the scheduler decides on a dashboard of its own")
+        parser.error("--dashboard: expected --local, --devices or --slurm; the scheduler decides on a dashboard of its own")
     if options.local > MOST_LOCAL:
         parser.error("--local %d: expected at most %d workers on one machine" % (options.local, MOST_LOCAL))
     tls = [options.tls_ca, options.tls_cert, options.tls_key]

@@ -27,13 +27,15 @@ cloudpickle.register_pickle_by_value(glim_child)  # workers need not have this c
 host_of = functools.lru_cache(maxsize=None)(addressing.get_address_host)  # asked for each worker in each turn
 
 
-def make_task(program, job, folder):
-    """A function without arguments, which goes to a worker by value."""
+def make_task(program, job, folder, devices):
+    """A function without arguments, which goes to a worker by value. devices: by the names of workers, which a cluster of this machine
+    counts from 0; or None."""
     def task():
         worker = distributed.get_worker()
+        placed = {**job, "device": devices[worker.name]} if devices else job
         if not hasattr(worker, "glim_servers"):
             worker.glim_servers = glim_child.Servers()
-        film, _, error = glim_child.serve_film(worker.glim_servers, program, job, folder, worker.local_directory)
+        film, _, error = glim_child.serve_film(worker.glim_servers, program, placed, folder, worker.local_directory)
         return film, error
     return task
 
@@ -109,8 +111,12 @@ class Driver:
         if is_all or now - self.useless_since >= PATIENCE_SECONDS:
             raise FarmError("no worker is left that can be used; the same command goes on from %s" % self.picture.folder.path)
 
+    def source_of(self, worker):
+        """Whose bits a worker has: those of its host or, where each has a device of its own, its own."""
+        return worker if self.options.devices else host_of(worker)
+
     def usable(self):
-        return {worker for worker in self.workers - self.barred if self.ledger.may_work(host_of(worker))}
+        return {worker for worker in self.workers - self.barred if self.ledger.may_work(self.source_of(worker))}
 
     def bar(self, worker, why):
         if worker not in self.barred:
@@ -126,10 +132,10 @@ class Driver:
     def hand_out(self):
         usable = self.usable()
         for worker in sorted(usable - self.busy):
-            part = self.ledger.lend(worker, host_of(worker), usable, time.monotonic())
+            part = self.ledger.lend(worker, self.source_of(worker), usable, time.monotonic())
             if part is None:
                 continue
-            task = make_task(self.picture.glim.program, self.picture.job(part), self.picture.glim.folder)
+            task = make_task(self.picture.glim.program, self.picture.job(part), self.picture.glim.folder, self.options.devices)
             future = self.client.submit(task, workers=[worker], allow_other_workers=False, pure=False)
             self.busy.add(worker)
             self.tasks[part, worker] = asyncio.create_task(self.follow(part, worker, future))
@@ -179,7 +185,7 @@ class Driver:
             return self.bar(worker, other)
         except FarmError as wrong:
             return self.fail(part, worker, wrong)
-        host = host_of(worker)
+        host = self.source_of(worker)
         if not self.ledger.is_trusted(host):
             self.ledger.give_back(part, worker)
             return None

@@ -1,5 +1,6 @@
 """glim on the driver's machine."""
 
+import json
 import os
 import subprocess
 
@@ -23,14 +24,32 @@ class Glim:
         """folder: where its relative names begin."""
         self.program, self.folder = program, folder
 
-    def version(self):
+    def run(self, *arguments):
         try:
-            done = subprocess.run([self.program, "--version"], capture_output=True, text=True, check=False)
+            done = subprocess.run([self.program, *arguments], capture_output=True, text=True, check=False)
         except OSError as error:
             raise FarmError("%s: is not glim: %s" % (self.program, error)) from error
         if done.returncode != 0:
-            raise FarmError(last_sentence(done.returncode, done.stderr))
+            raise FarmError(last_sentence(done.returncode, done.stderr), done.returncode if done.returncode > 0 else 1)
         return done.stdout.strip()
+
+    def version(self):
+        return self.run("--version")
+
+    def devices(self, wanted):
+        """The descriptions of the devices that `--devices` wants, by worker. All are all GPUs, or all software devices if there is no GPU."""
+        found = [{"index": index, **device} for index, device in enumerate(json.loads(self.run("devices", "--json")))]
+        usable = [device for device in found if device["usable"]]
+        if wanted == "all":
+            chosen = [device for device in usable if device["kind"] != "software"] or usable
+            if not chosen:
+                raise FarmError("--devices all: this machine has no device that glim can use", 3)
+            return chosen
+        for index in wanted:
+            if index >= len(found) or not found[index]["usable"]:
+                raise FarmError("--devices: device %d %s; `glim devices` lists them" % (
+                    index, "lacks what glim needs" if index < len(found) else "is not there"), 3)
+        return [found[index] for index in wanted]
 
     def merge(self, films, output=None, **options):
         """Merges films into the file `output`; without one they are only looked at. options: others of `glim merge`.

@@ -25,6 +25,15 @@ async def render(picture, done, options, progress):
         await driver.run(client)
 
 
+def place(options, devices, say):
+    """One worker on each of the devices. What the driver renders itself is rendered on the first one."""
+    options.devices = [str(device["index"]) for device in devices]
+    options.local = len(devices)
+    options.job["device"] = options.devices[0]
+    for device in devices:
+        say("a worker on device %d, %s" % (device["index"], device["name"]))
+
+
 def farm(options, progress):
     """Returns the exit code."""
     from render_farm.animation import Animation
@@ -36,6 +45,8 @@ def farm(options, progress):
     for path in filter(None, (options.output, options.png)):
         check_place(path)
     glim = Glim(find_glim(), os.getcwd())
+    if options.devices:
+        place(options, glim.devices(options.devices), progress.say)
     kind = Animation if options.frames else Bands if options.bands else Picture
     picture = kind(options, glim, JobFolder(options.output), progress.say)
     done = picture.open()
