@@ -139,6 +139,49 @@ updateLists() {
     [[ $status != 124 ]] || asRoot "${update[@]}" </dev/null 2>&1 | showProgress "fetching apt's lists" || true
 }
 
+# downloadPackage PACKAGE FOLDER: by apt, which verifies it. Needs no root. Fails if no server answers within 15 s.
+downloadPackage() {
+    (cd "$2" && LC_ALL=C apt-get download -q -o Acquire::http::Timeout=15 -o Acquire::Retries=0 "$1" </dev/null 2>&1) |
+        showProgress "fetching $1"
+}
+
+# extractSwiftShader FOLDER: from the package in it, which is removed.
+extractSwiftShader() {
+    local inside=./usr/lib/chromium
+    dpkg-deb --fsys-tarfile "$1"/*.deb |
+        tar -x -C "$1" --strip-components=4 $inside/libvk_swiftshader.so $inside/vk_swiftshader_icd.json 2>>"$setupLog" &&
+        rm "$1"/*.deb
+}
+
+# ensureSwiftShader DIRECTORY: fetches a software driver of another kind than Mesa's into DIRECTORY/swiftshader, out of Debian's package of
+# what all Chromium browsers share: 32 MB, of which 5 are kept. Nothing is installed. Where Debian's packages cannot be reached it says so, and
+# leaves no driver.
+ensureSwiftShader() {
+    local folder=$1/swiftshader new=$1/swiftshader.new package=chromium-common
+    [[ -r $folder/vk_swiftshader_icd.json ]] && return
+    if ! isDebian; then
+        say "WARNING: tests on SwiftShader, the second driver, are skipped: it comes from Debian's package $package, and this is not Debian"
+        return
+    fi
+    (
+        until flock -w 10 9; do say "waiting for another build in $1"; done
+        [[ -r $folder/vk_swiftshader_icd.json ]] && exit
+        setupLog=$1/setup.log
+        : >"$setupLog"
+        rm -rf "$new" && mkdir "$new"
+        say "fetching SwiftShader, the second driver of the tests, from Debian's package $package (32 MB)"
+        if downloadPackage $package "$new" || { updateLists && downloadPackage $package "$new"; }; then
+            extractSwiftShader "$new" || fail "Debian's package $package has no SwiftShader that can be unpacked"
+            mv "$new" "$folder"
+        elif downloadPackage libvulkan1 "$new"; then
+            fail "apt-get could not download $package, although it downloads other packages"
+        else
+            say "WARNING: tests on SwiftShader, the second driver, are skipped: no server of Debian's packages answers"
+            rm -rf "$new"
+        fi
+    ) 9>"$1/.lock"
+}
+
 # installMissing PACKAGE_LINE...
 installMissing() {
     local installed line missing=() names=() offline=()

@@ -263,37 +263,54 @@ class DevicesTest(FarmCase):
         with self.assertRaisesRegex(FarmError, "no device that glim can use"):
             self.choose("all", "DISCRETE")
 
+    OWN_DRIVER = os.environ.get("VK_DRIVER_FILES") or glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")[0]
+    SECOND_DRIVER = os.environ.get("GLIM_SECOND_DRIVER", "none")  # tools/test --ci
+
+    @staticmethod
+    def drivers(*files):
+        return dict.fromkeys(("VK_DRIVER_FILES", "VK_ICD_FILENAMES"), ":".join(files))
+
     def two_devices(self):
         """The driver of the tests twice, which makes two devices of one, as the loader has them."""
-        own = os.environ.get("VK_DRIVER_FILES") or glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")[0]
-        with open(own, encoding="utf-8") as file:
+        with open(self.OWN_DRIVER, encoding="utf-8") as file:
             driver = json.load(file)
-        library = os.path.join(os.path.dirname(own), driver["ICD"]["library_path"])
+        library = os.path.join(os.path.dirname(self.OWN_DRIVER), driver["ICD"]["library_path"])
         if os.path.exists(library):  # else a name, which the system looks up
             driver["ICD"]["library_path"] = library
         paths = [self.path(name) for name in ("one.json", "two.json")]
         for path in paths:
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(driver, file)
-        return dict.fromkeys(("VK_DRIVER_FILES", "VK_ICD_FILENAMES"), ":".join(paths))
+        return self.drivers(*paths)
+
+    ON_BOTH = """
+            claim(FOLDER, "rendering-on-" + page.job["device"])
+            wait_for(FOLDER, "rendering-on-0")
+            wait_for(FOLDER, "rendering-on-1")
+    """
 
     def test_each_device_has_a_worker(self):
         """Also after a worker has died."""
         drivers = self.two_devices()
         glim = self.program("""
-            device = page.job["device"]
-            if device == "1" and claim(FOLDER, "death"):
+            if page.job["device"] == "1" and claim(FOLDER, "death"):
                 os.kill(page.worker, signal.SIGKILL)
                 time.sleep(600)
-            claim(FOLDER, "rendering-on-" + device)
-            wait_for(FOLDER, "rendering-on-0")
-            wait_for(FOLDER, "rendering-on-1")
-        """)
+        """ + self.ON_BOTH)
         said = self.finish(self.start_farm("--devices", "all", glim=glim, **drivers))
         self.assertRegex(said, "a worker on device 0, .*\n.*a worker on device 1, ")
         self.assertEqual(said.count("is gone"), 1, said)
         self.expect_whole()
         self.assertIn("--devices: device 2 is not there", self.finish(self.start_farm("--devices", "2", **drivers), 3))
+
+    @unittest.skipUnless(os.path.exists(SECOND_DRIVER), "no second driver")
+    def test_two_drivers_have_the_bits_of_one(self):
+        said = self.finish(self.start_farm("--devices", "all", glim=self.program(self.ON_BOTH),
+                                           **self.drivers(self.OWN_DRIVER, self.SECOND_DRIVER)))
+        self.assertRegex(said, "(?s)a worker on device 0, .*a worker on device 1, ")
+        self.assertEqual(said.count("SwiftShader"), 1, said)
+        self.assertNotIn("is not used", said)
+        self.expect_whole()
 
     def test_devices_that_differ(self):
         """A third one decides, as of hosts: they are one host, but it does not contradict itself."""

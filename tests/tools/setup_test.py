@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What tools/setup.sh says while it installs and builds, on a terminal and without one: how far it is, and that there is no network."""
+"""What tools/setup.sh says while it installs and builds, on a terminal and without one: how far it is, and that there is no network. How it
+fetches the second driver of the tests."""
 
 import concurrent.futures
 import contextlib
@@ -193,6 +194,68 @@ APT::Sandbox::User "";
         self.assertEqual(code, 1)
         self.assertRegex(said.rstrip(), r"\nglim: apt-get could not install: g\+\+ cmake [^\n]*$")
         self.assertGreater(len(self.slow.connections), 1)
+
+
+@unittest.skipUnless(IS_DEBIAN, "not Debian 12 or newer")
+class SecondDriverTest(unittest.TestCase):
+    """ensureSwiftShader, with programs in place of apt-get."""
+
+    WANTED = ("libvk_swiftshader.so", "vk_swiftshader_icd.json")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.machine = Machine(folder.name)
+        self.machine.add_program("sudo", "exit 1\n")
+        os.mkdir(self.machine.path("build"))
+
+    def fetch(self):
+        """Exit code, what is said, and the files that are there then."""
+        done = subprocess.run(["bash", "-c", "set -euo pipefail; source tools/setup.sh; ensureSwiftShader build"], cwd=self.machine.folder,
+                              env=self.machine.environment, text=True, capture_output=True, timeout=120, check=False)
+        driver = self.machine.path("build", "swiftshader")
+        return done.returncode, done.stderr, sorted(os.listdir(driver)) if os.path.exists(driver) else []
+
+    def add_apt(self, package, *names):
+        """An apt-get that has only this package, with files of these names where Chromium has its libraries."""
+        content = self.machine.path("content")
+        os.makedirs(os.path.join(content, "DEBIAN"))
+        os.makedirs(os.path.join(content, "usr/lib/chromium"))
+        with open(os.path.join(content, "DEBIAN/control"), "w", encoding="utf-8") as file:
+            file.write("Package: %s\nVersion: 1\nArchitecture: all\nMaintainer: nobody <a@b.c>\nDescription: a test\n" % package)
+        for name in (*names, "resources.pak"):
+            with open(os.path.join(content, "usr/lib/chromium", name), "w", encoding="utf-8") as file:
+                file.write(name)
+        subprocess.run(["dpkg-deb", "--build", content, self.machine.path("there.deb")], check=True, stdout=subprocess.DEVNULL)
+        self.machine.add_program("apt-get", """[[ " $* " == *" download "* && ${!#} == %s ]] || { echo "E: nothing is there"; exit 100; }
+cp %s %s.deb
+""" % (package, self.machine.path("there.deb"), package))
+
+    def test_is_fetched_once(self):
+        self.add_apt("chromium-common", *self.WANTED)
+        code, said, files = self.fetch()
+        self.assertEqual((code, files), (0, sorted(self.WANTED)), said)
+        self.assertRegex(said, r"^glim: fetching SwiftShader, [^\n]*\n$")
+        self.machine.add_program("apt-get", "echo asked again >&2; exit 1\n")
+        self.assertEqual(self.fetch(), (0, "", files))
+
+    def test_without_a_network_it_is_skipped(self):
+        self.machine.add_program("apt-get", 'echo "E: Could not resolve deb.debian.org"; exit 100\n')
+        code, said, files = self.fetch()
+        self.assertEqual((code, files), (0, []), said)
+        self.assertIn("WARNING: tests on SwiftShader, the second driver, are skipped: no server of Debian's packages answers", said)
+
+    def test_fails_where_others_are_fetched(self):
+        self.add_apt("libvulkan1")
+        code, said, files = self.fetch()
+        self.assertEqual((code, files), (1, []), said)
+        self.assertIn("could not download chromium-common, although it downloads other packages", said)
+
+    def test_fails_where_the_package_has_no_driver(self):
+        self.add_apt("chromium-common", "vk_swiftshader_icd.json")
+        code, said, files = self.fetch()
+        self.assertEqual((code, files), (1, []), said)
+        self.assertIn("has no SwiftShader that can be unpacked", said)
 
 
 if __name__ == "__main__":
