@@ -60,8 +60,8 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecSuspects] = settings.suspects > 0;
     constants[kSpecNotes] = settings.notes;
     constants[kSpecPathsPerThread] = rulesOf(device.deviceClass).pathsPerThread;
-    constexpr std::uint32_t kSharedBytes = 16384;  // that every device has
-    const std::uint64_t stackBytes = 2 * sizeof(std::uint32_t) * std::uint64_t{scene.stackLevels} * settings.workgroup;
+    constexpr std::size_t kSharedBytes = 16384;  // that every device has
+    const std::size_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;
     constants[kSpecSharedStack] = rulesOf(device.deviceClass).sharedStack && stackBytes <= kSharedBytes;
     return constants;
 }
