@@ -93,7 +93,7 @@ def unpack_programs(bundle, folder):
 
 
 def environment_for(bundle, programs, folder, drivers, layer):
-    """Libraries of the bundle first, but for the compiler's own where the machine has newer ones; caches of drivers in `folder`."""
+    """Libraries of the bundle first, but for the compiler's own where the machine has newer ones; caches in `folder`."""
     fallback = os.path.join(folder, "lib")
     shutil.rmtree(fallback, ignore_errors=True)
     os.makedirs(fallback)
@@ -102,7 +102,7 @@ def environment_for(bundle, programs, folder, drivers, layer):
         if not machine_has(name, path):
             os.symlink(os.path.abspath(path), os.path.join(fallback, name))
     libraries = [os.path.join(programs, "lib"), fallback, *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
-    environment = {**os.environ, "LD_LIBRARY_PATH": ":".join(libraries), "GLIM_CACHE_DIR": "",
+    environment = {**os.environ, "LD_LIBRARY_PATH": ":".join(libraries),
                    "GLIM_TEST_DATA": os.path.join(bundle, "tests"), **caches_in(os.path.join(folder, "cache"))}
     if drivers:
         environment.update(VK_DRIVER_FILES=drivers, VK_ICD_FILENAMES=drivers)
@@ -112,5 +112,5 @@ def environment_for(bundle, programs, folder, drivers, layer):
 
 
 def caches_in(folder):
-    """Where drivers keep compiled kernels: Mesa's and NVIDIA's."""
-    return {"MESA_SHADER_CACHE_DIR": folder, "__GL_SHADER_DISK_CACHE_PATH": folder, "__GL_SHADER_DISK_CACHE": "1"}
+    """Where glim and drivers keep compiled kernels: Mesa's and NVIDIA's."""
+    return {"GLIM_CACHE_DIR": folder, "MESA_SHADER_CACHE_DIR": folder, "__GL_SHADER_DISK_CACHE_PATH": folder, "__GL_SHADER_DISK_CACHE": "1"}

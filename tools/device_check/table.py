@@ -102,7 +102,9 @@ def speed_tables(step):
         (row["scene"], row["size"], row["schedule"], row["capacity"], millions(row, "samplesPerSecond"),
          "" if "failed" in row else millions(row, "raysPerSecond"),
          "" if "failed" in row else "%.2f of %.2f" % (row["deviceSeconds"], row["wallSeconds"])) for row in step["renders"]])
-    compiled = rows_of(("showcase, compiling", "s"), [(name, number(value)) for name, value in step["compile"].items()])
+    compiled = rows_of(("showcase", "compiling, s", "to the first picture, s"), [
+        (name, seconds.get("failed") or number(seconds["compile"]), number(seconds.get("firstPass")))
+        for name, seconds in step["compile"].items()])
     kinds = sorted({kind for rates in step["rays"].values() for kind in rates})
 
     def cell(rates, kind):
