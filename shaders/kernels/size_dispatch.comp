@@ -1,5 +1,6 @@
 // One thread in all. Turns the length of the queue that was just filled, of paths or of shadow rays as the pass says, into the size of
-// the dispatches over it and, once no path is alive, over the pass's pixels, and resets its tail. At the start of a pass (bounce 0) generate_rays has queued all slots.
+// the dispatches over it and, once no path is alive, over the pass's pixels, and resets its tail. At the start of a pass (bounce 0)
+// generate_rays has queued all slots.
 // Reads and writes queue tails; writes queue sizes; adds to the ray counts and, for queues that are too long, to the status.
 #version 460
 #extension GL_GOOGLE_include_directive : require
