@@ -27,7 +27,7 @@ layout(set = 0, binding = kBindChosenPixels, scalar) readonly buffer ChosenPixel
 
 layout(local_size_x_id = kSpecWorkgroup) in;
 
-// The device's threads may take contiguous halves of a dispatch (those of CPU drivers do, without work stealing). So neighbouring groups go to
+// The device's threads may take contiguous halves of a dispatch (those of a CPU do, without work stealing). So neighbouring groups go to
 // different halves: an uneven picture keeps both busy.
 uint interleavedInvocation()
 {
