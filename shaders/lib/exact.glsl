@@ -23,22 +23,18 @@ float exactQuotient(const float a, const float b)
     uint bitsA = floatBitsToUint(a), bitsB = floatBitsToUint(b);
     int exponentA = int(bitsA >> 23u & 0xffu), exponentB = int(bitsB >> 23u & 0xffu);
     uint mantissaA = exactMantissa(bitsA), mantissaB = exactMantissa(bitsB);
-    bool less = mantissaA < mantissaB;
-    uint shift = less ? 24u : 23u;
-    // The integer part of mantissaA 2^shift / mantissaB, which is in [2^23, 2^24), off by 10 at most.
+    int less = mantissaA < mantissaB ? 1 : 0;
+    // The nearest integer to mantissaA 2^(23 + less) / mantissaB, which is in [2^23, 2^24]: first off by 10 at most, then by 1.
     float inverse = 1.0 / float(mantissaB);
-    uint quotient = uint(float(mantissaA) * inverse * (less ? 16777216.0 : 8388608.0));
-    int rest = int((mantissaA << shift) - quotient * mantissaB);
-    int step = int(floor(float(rest) * inverse));  // off by one at most
-    quotient += uint(step);
-    rest -= step * int(mantissaB);
-    int last = rest < 0 ? -1 : rest >= int(mantissaB) ? 1 : 0;
-    quotient += uint(last);
-    rest -= last * int(mantissaB);
-    quotient += 2 * rest > int(mantissaB) ? 1u : 0u;  // a quotient of two mantissas is never half way
+    uint scaled = mantissaA << less;
+    uint quotient = uint(float(scaled) * inverse * 8388608.0);
+    int rest = int((scaled << 23u) - quotient * mantissaB);
+    int step = int(roundEven(float(rest) * inverse));
+    int twice = 2 * (rest - step * int(mantissaB));  // never as large as the mantissa: a quotient is not half way
+    int bits = int(quotient) + step + (twice > int(mantissaB) ? 1 : 0) - (twice < -int(mantissaB) ? 1 : 0);
 
-    int exponent = exponentA - exponentB + (less ? 125 : 126);  // the mantissa's leading one is to be added
-    int bits = clamp(exponent, -2, 253) * int(kExactOne) + int(quotient);
+    int exponent = exponentA - exponentB - less + 126;  // the mantissa's leading one is to be added
+    bits += clamp(exponent, -2, 253) * int(kExactOne);
     uint size = exponent > 253 ? kExactInfinity : bits < int(kExactOne) ? 0u : uint(bits);
     bool zeroA = exponentA == 0, zeroB = exponentB == 0, wideA = exponentA == 255, wideB = exponentB == 255;
     size = zeroA || wideB ? 0u : zeroB || wideA ? kExactInfinity : size;
@@ -52,18 +48,15 @@ float exactRoot(const float x)
     uint bits = floatBitsToUint(x);
     uint exponent = bits >> 23u & 0xffu;
     uint mantissa = exactMantissa(bits) << (1u - (exponent & 1u));  // of an even power of two
-    // The integer part of the root of mantissa 2^23, which is in [2^23, 2^24), off by 20 at most.
-    uint root = uint(sqrt(float(mantissa) * 8388608.0));
-    int rest = int((mantissa << 23u) - root * root);
-    int step = int(floor(float(rest) * (0.5 / float(root))));  // off by one at most
-    rest -= step * (2 * int(root) + step);
-    root += uint(step);
-    int last = rest < 0 ? -1 : rest > 2 * int(root) ? 1 : 0;
-    rest -= last * (2 * int(root) + last);
-    root += uint(last);
-    root += rest > int(root) ? 1u : 0u;  // (root + 1/2)^2 is no integer
+    // The nearest integer to the root of mantissa 2^23, which is in [2^23, 2^24): first off by 20 at most, then by 1.
+    int root = int(sqrt(float(mantissa) * 8388608.0));
+    int rest = int((mantissa << 23u) - uint(root) * uint(root));
+    int step = int(roundEven(float(rest) * (0.5 / float(root))));
+    rest -= step * (2 * root + step);
+    root += step;
+    root += (rest > root ? 1 : 0) - (rest <= -root ? 1 : 0);  // between integers lies (root + 1/2)^2, which is none
 
-    uint size = (((exponent + 127u) >> 1u) - 1u) * kExactOne + root;
+    uint size = (((exponent + 127u) >> 1u) - 1u) * kExactOne + uint(root);
     bool negative = (bits & kExactSign) != 0u;
     uint special = exponent == 0u ? bits & kExactSign : exactIsNan(bits) || negative ? kExactNan : kExactInfinity;
     return uintBitsToFloat(exponent == 0u || exponent == 255u || negative ? special : size);
