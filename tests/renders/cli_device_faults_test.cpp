@@ -115,7 +115,7 @@ TEST_F(DeviceFaultTest, WhatCannotBeMadeLeavesNothingBehind)
     faulty.environment["LD_PRELOAD"] = GLIM_FAIL_IN_VULKAN;
     faulty.environment["GLIM_VALIDATION"] = "1";
     int faults = 0;
-    for (int at = 1;; at += 1 + at / 6) {
+    for (int at = 1;; at += 1 + at / 8) {
         std::filesystem::remove(film_);
         faulty.environment["GLIM_REFUSE_OBJECTS_AT"] = std::to_string(at);
         const GlimRun run = runForMessages(faulty);

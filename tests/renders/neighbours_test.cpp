@@ -211,6 +211,8 @@ TEST(NeighboursTest, TheControlIsNewSamplesOfAFewPixels)
         settings.sampler = adaptive == Adaptive::Course ? Sampler::Independent : Sampler::Sobol;
         settings.tilePixels = 700;
         settings.caustics = adaptive == Adaptive::Neighbours;  // the course has none
+        settings.portion = 2;
+        settings.uncheckedSeconds = 0.0;
         Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
         const Film film = renderer.render([](const RenderProgress&) { return true; });
         const RenderStatistics before = renderer.statistics();

@@ -38,12 +38,12 @@ TEST_F(PreviewTest, ShowsTheTonesThatFilesHave)
     }
 }
 
-// Past the end of a page, where the host takes over the samples.
+// Past the end of a page, where the host takes over the samples. Not denoised, however long it takes.
 TEST_F(PreviewTest, ShowsManySamples)
 {
     width = 24;
     height = 18;
-    const Pixels shown = windowAtWriting(screen, "0 samples 300\n0 key P\n", {"--spp", "300"});
+    const Pixels shown = windowAtWriting(screen, "0 key N\n0 samples 300\n0 key P\n", {"--spp", "300"});
     EXPECT_TRUE(sameBits(film(1), render("--spp 300")));
     EXPECT_EQ(countOthers(shown, rendered()), 0);
 }
