@@ -136,16 +136,16 @@ TEST_F(CommandLineResumeTest, GoesOnFromAFilmOfFewerSamples)
 
 TEST_F(CommandLineResumeTest, NeighboursGoOn)
 {
-    expectDone({"--spp", "512", "--adaptive", "neighbours"});
+    expectDone({"--spp", "4096", "--adaptive", "neighbours"});
     const std::string expected = computeDigest(readFilm(film_));
     std::filesystem::remove(film_);
-    GlimCall stopped = call({"--spp", "512", "--adaptive", "neighbours", "--resume", "--progress", "json"});
+    GlimCall stopped = call({"--spp", "4096", "--adaptive", "neighbours", "--resume", "--progress", "json"});
     stopped.signalWhen = hasLine;
     stopped.signal = SIGINT;
     EXPECT_EQ(runGlim(stopped).exitCode, 128 + SIGINT);
-    expectDone({"--spp", "512", "--adaptive", "neighbours", "--resume"});
+    expectDone({"--spp", "4096", "--adaptive", "neighbours", "--resume"});
     EXPECT_EQ(computeDigest(readFilm(film_)), expected);
-    expectRefused({"--spp", "1024", "--adaptive", "neighbours", "--resume"}, MessageId::Mismatch, {.place = "--spp"});
+    expectRefused({"--spp", "8192", "--adaptive", "neighbours", "--resume"}, MessageId::Mismatch, {.place = "--spp"});
 }
 
 TEST_F(CommandLineResumeTest, UserSignalWritesAndGoesOn)
