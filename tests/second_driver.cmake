@@ -12,8 +12,8 @@ set(beyondItsLimits
     TraverseStepsTest.H6GrowingLineAgreesWithTheReference
     TraverseStepsTest.TheStackIsAsDeepAsTheTreeNeeds
 )
-# More than 25 s, most of which SwiftShader spends on compiling; KernelRegistersTest also more than 20 GB. Of the instances three remain, of six or seven seconds each.
-# StartMediaTest, which would take 40 s, has pictures too and so counts as a suite of tests/renders.
+# More than 25 s, most of which SwiftShader spends on compiling; KernelRegistersTest also takes more than 20 GB. Of the instances three remain,
+# of six or seven seconds each.
 set(tooSlowForIt
     ContactTest.*
     CoplanarTest.*
