@@ -84,7 +84,7 @@ set(onlyInCi
     SplitRulePictureTest.EveryRuleGivesTheBitsOfTheOthers
     MergedRenderTest.*
     PathCapacityTest.*
-    StagingTest.ARenderHasTheBitsOfMappedMemory
+    StagingTest.ARenderHasTheBitsOfASoftwareDevice
     StepsTest.PassesThatAreGivenUpAreTracedAgain
     StepsTest.FilmsAreThoseOfWholeRenders
     StepsTest.AWindowShowsWhatFilesHold

@@ -27,6 +27,15 @@ Function nextOf(const char* name)
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
+// What the driver of the tests knows of the extensions that glim asked for.
+template <class Info>
+std::vector<const char*> without(const char* extension, const Info& info)
+{
+    std::vector<const char*> names(info.ppEnabledExtensionNames, info.ppEnabledExtensionNames + info.enabledExtensionCount);
+    std::erase_if(names, [extension](const char* name) { return std::strcmp(name, extension) == 0; });
+    return names;
+}
+
 // The list as Vulkan gives it, by count first.
 VkResult give(const std::vector<const char*>& names, uint32_t* count, VkExtensionProperties* properties)
 {
@@ -60,9 +69,11 @@ VkResult vkCreateInstance(const VkInstanceCreateInfo* info, const VkAllocationCa
     }
     portability->instanceFlags = info->flags;
     portability->instanceExtensions = {info->ppEnabledExtensionNames, info->ppEnabledExtensionNames + info->enabledExtensionCount};
+    const std::vector<const char*> real = without(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME, *info);
     VkInstanceCreateInfo plain = *info;
     plain.flags = 0;
-    plain.enabledExtensionCount = 0;
+    plain.enabledExtensionCount = static_cast<uint32_t>(real.size());
+    plain.ppEnabledExtensionNames = real.data();
     return next(&plain, callbacks, instance);
 }
 
@@ -85,8 +96,10 @@ VkResult vkCreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* inf
         return next(physical, info, callbacks, device);
     }
     portability->deviceExtensions = {info->ppEnabledExtensionNames, info->ppEnabledExtensionNames + info->enabledExtensionCount};
+    const std::vector<const char*> real = without(kPortabilitySubset, *info);
     VkDeviceCreateInfo plain = *info;
-    plain.enabledExtensionCount = 0;
+    plain.enabledExtensionCount = static_cast<uint32_t>(real.size());
+    plain.ppEnabledExtensionNames = real.data();
     return next(physical, &plain, callbacks, device);
 }
 
