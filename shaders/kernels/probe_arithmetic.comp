@@ -9,7 +9,7 @@ void main()
     uint i = gl_GlobalInvocationID.x;
     uint bits = i * 747796405u + 2891336453u;  // of a linear congruential generator
     bits ^= bits >> 16u;
-    float unit = float(bits >> 8u) * (1.0 / 16777216.0) + 1e-7;  // above 0, at most 1
+    float unit = float(bits >> 8u) * (1.0 / 16777216.0) + 1e-7;  // above 0, at most 1; films convert no larger integers than this
     float angle = (unit - 0.5) * 12.0;
     float wide = unit * float(1u << (i % 31u));
     uint first = i * kProbedOperations;
@@ -17,6 +17,5 @@ void main()
     probed[first + 1u] = unit / (wide + 0.37);
     probed[first + 2u] = length(vec3(unit, angle, wide));
     probed[first + 3u] = unit * angle + wide;
-    probed[first + 4u] = float(bits);  // of 32 bits
-    probed[first + 5u] = mix(angle, wide, unit);
+    probed[first + 4u] = mix(angle, wide, unit);
 }

@@ -25,7 +25,7 @@ GLIM_CONST uint kStepsPerThread = 512u;
 
 // How a device rounds is told by so many inputs of so many operations (probe_arithmetic).
 GLIM_CONST uint kProbedInputs = 4096u;
-GLIM_CONST uint kProbedOperations = 6u;
+GLIM_CONST uint kProbedOperations = 5u;
 
 // After this many equal samples a pixel may count as constant. If one sample in 200 is not black, so many have shown one with probability
 // .994. Where no surface is in sight fewer are enough (course_choose_pixels).
