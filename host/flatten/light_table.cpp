@@ -110,6 +110,10 @@ FiniteLight polygonLight(const FlatLight& surface, const glm::vec3& corner, cons
     light.edge1 = edge1;
     light.edge2 = edge2;
     light.size = static_cast<float>(rectangle ? doubled : 0.5 * doubled);
+    if (rectangle) {
+        light.versineInner = static_cast<float>(1.0 / glm::length(glm::dvec3(edge1)));
+        light.versineOuter = static_cast<float>(1.0 / glm::length(glm::dvec3(edge2)));
+    }
     const glm::vec3 ends[4] = {corner, corner + edge1, corner + edge2, corner + (edge1 + edge2)};
     LightBounds bounds;
     bounds.low = bounds.high = corner;

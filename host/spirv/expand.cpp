@@ -2,6 +2,9 @@
 
 #include "host/spirv/builder.hpp"
 
+#include <algorithm>
+#include <unordered_map>
+
 namespace glim::spirv {
 namespace {
 
@@ -43,16 +46,30 @@ void mix(Builder& build, Id x, Id y, Id a, Id type, Id result)
     build.operate(kOpFAdd, type, {first, build.operate(kOpFMul, type, {y, a})}, result);
 }
 
-void normalize(Builder& build, Id v, Id type, Id result)
+void divide(Builder& build, Id v, Id divisor, Id type, Id result)
 {
     const Id scalar = build.module().scalarOf(type);
-    const Id inverse = build.operate(kOpFDiv, scalar, {build.module().constant(scalar, 1.0F), length(build, v)});
+    const Id inverse = build.operate(kOpFDiv, scalar, {build.module().constant(scalar, 1.0F), divisor});
     build.operate(kOpVectorTimesScalar, type, {v, inverse}, result);
 }
 
-// Appends what replaces the instruction; false if nothing does.
-bool replace(Builder& build, const Instruction& i)
+// Ids of vectors all of whose components are one number, and the number's.
+using Splats = std::unordered_map<Id, Id>;
+
+void noteSplat(Splats& splats, const Instruction& i)
 {
+    if (i.opcode() == kOpCompositeConstruct && std::all_of(i.words.begin() + 4, i.words.end(), [&i](Id id) { return id == i.words[3]; })) {
+        splats[i.result] = i.words[3];
+    }
+}
+
+// Appends what replaces the instruction; false if nothing does.
+bool replace(Builder& build, const Splats& splats, const Instruction& i)
+{
+    if (i.opcode() == kOpFDiv && splats.contains(i.words[4])) {
+        divide(build, i.words[3], splats.at(i.words[4]), i.type, i.result);
+        return true;
+    }
     if (i.opcode() == kOpDot) {
         dot(build, i.words[3], i.words[4], i.result);
         return true;
@@ -72,7 +89,7 @@ bool replace(Builder& build, const Instruction& i)
         length(build, build.operate(kOpFSub, build.module().typeOf(operand(0)), {operand(0), operand(1)}), i.result);
         return true;
     case kGlslCross: cross(build, operand(0), operand(1), i.type, i.result); return true;
-    case kGlslNormalize: normalize(build, operand(0), i.type, i.result); return true;
+    case kGlslNormalize: divide(build, operand(0), length(build, operand(0)), i.type, i.result); return true;
     default: return false;
     }
 }
@@ -83,8 +100,10 @@ void expand(Module& module)
 {
     std::vector<Instruction> out;
     Builder build(module, out);
+    Splats splats;
     for (Instruction& instruction : module.functions) {
-        if (!replace(build, instruction)) {
+        noteSplat(splats, instruction);
+        if (!replace(build, splats, instruction)) {
             out.push_back(std::move(instruction));
         }
     }

@@ -21,7 +21,7 @@ struct TraversalRay {
 TraversalRay makeTraversalRay(vec3 origin, vec3 direction)
 {
     vec3 reciprocal = reciprocalDirection(direction);
-    return TraversalRay(origin, direction, reciprocal, rayOctant(reciprocal), makeShear(direction));
+    return TraversalRay(origin, direction, reciprocal, rayOctant(reciprocal), makeShear(direction, reciprocal));
 }
 
 TriangleHit intersectTriangle(TraversalRay traversal, PrimitiveRef ref, float tMax);

@@ -59,8 +59,8 @@ bool isNear(FlatLight light, vec3 p)
 
 SphericalRectangle rectangleSeenFrom(FlatLight light, vec3 p)
 {
-    float length1 = length(light.edge1), length2 = length(light.edge2);
-    return makeSphericalRectangle(p, light.position, light.edge1 / length1, light.edge2 / length2, length1, length2);
+    vec3 x = light.edge1 * light.versineInner, y = light.edge2 * light.versineOuter;  // reciprocal lengths
+    return makeSphericalRectangle(p, light.position, x, y, dot(light.edge1, x), dot(light.edge2, y));
 }
 
 float computeSolidAngle(FlatLight light, vec3 p)
@@ -103,7 +103,8 @@ float pdfSurfaceLight(FlatLight light, float probability, LightContext context, 
         }
         return probability * t * t / (4.0 * kPi * light.size * light.size * cosine);
     }
-    return probability * (isNear(light, context.p) ? 1.0 / computeSolidAngle(light, context.p) : t * t / (light.size * cosine));
+    bool near = isNear(light, context.p);
+    return probability * (near ? 1.0 : t * t) / (near ? computeSolidAngle(light, context.p) : light.size * cosine);
 }
 
 // Density per steradian with which choosing and sampling lights would have found the light that a ray has hit at distance t and |cos|
@@ -144,16 +145,17 @@ LightSample samplePolygonLight(FlatLight light, float probability, LightContext 
     vec3 point = trianglePoint(light.position, light.edge1, light.edge2, barycentric);
     vec3 n = computeLightNormal(light);
     vec3 towards = point - context.p;
-    float lightDistance = length(towards);
-    float facing = -dot(n, towards) / lightDistance;
+    float distance2 = dot(towards, towards);
+    vec3 wi = towards / sqrt(distance2);
+    float facing = -dot(n, wi);
     float cosine = isDoubleSided(light) ? abs(facing) : facing;
     bool near = isNear(light, context.p);
-    float pdf = probability * (near ? 1.0 / solidAngle : lightDistance * lightDistance / (light.size * cosine));
+    float pdf = probability * (near ? 1.0 : distance2) / (near ? solidAngle : light.size * cosine);
     vec3 target = offsetPoint(point, facing > 0.0 ? n : -n, triangleErrorBound(light.position, light.edge1, light.edge2, hasFeature(kFeatureLargeTriangles)));
     bool faces = cosine > 0.0 && (!near || solidAngle > 0.0);
     uint primitive = isRectangleLight(light) && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
     at = LightPoint(point, barycentric, cosine);
-    return LightSample(faces ? towards / lightDistance : vec3(0.0), light.intensity, faces ? pdf : 0.0, target, primitive, 1.0);
+    return LightSample(faces ? wi : vec3(0.0), light.intensity, faces ? pdf : 0.0, target, primitive, 1.0);
 }
 
 // From outside: uniform in the cone.

@@ -57,9 +57,9 @@ vec4 decodedTexel(TextureData data, uint x, uint y)
     vec4 value = vec4(fetchTexel(data.firstTexel + (wide ? 2u * texel : texel)));
     if (wide) {
         vec4 more = vec4(fetchTexel(data.firstTexel + 2u * texel + 1u));
-        value = vec4(value.xz * 256.0 + value.yw, more.xz * 256.0 + more.yw) / 257.0;
+        value = vec4(value.xz * 256.0 + value.yw, more.xz * 256.0 + more.yw);
     }
-    value /= 255.0;
+    value *= wide ? 1.0 / 65535.0 : 1.0 / 255.0;  // the largest one becomes 1
     return (data.flags & kSrgb) != 0u ? vec4(linearFromSrgb(value.rgb), value.a) : value;
 }
 

@@ -17,7 +17,7 @@ ClampedLight clampIndirect(vec3 contribution, uint pathLength, float limit)
     }
     vec3 kept = contribution * (limit / largest);
     vec3 gone = contribution - kept;
-    return ClampedLight(kept, (gone.r + gone.g + gone.b) / 3.0);
+    return ClampedLight(kept, (gone.r + gone.g + gone.b) * (1.0 / 3.0));
 }
 
 #endif

@@ -37,8 +37,8 @@ vec3 normalizeSafely(vec3 v)
 {
     vec3 a = abs(v);
     float largest = max(a.x, max(a.y, a.z));
-    vec3 scaled = v / largest;
-    return scaled / sqrt(dot(scaled, scaled));
+    float scale = largest > 1e15 ? 8.271806125530277e-25 : largest < 1e-15 ? 1.2089258196146292e24 : 1.0;  // 2^-80, 2^80
+    return normalize(v * scale);
 }
 
 #endif

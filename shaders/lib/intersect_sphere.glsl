@@ -19,19 +19,24 @@ float intersectSphere(vec3 origin, vec3 direction, vec3 center, float radius, fl
     vec3 f = origin - center;
     float a = dot(direction, direction);
     float b = -dot(f, direction);
+    float inverse = 1.0 / a;
     vec3 high = upperBits(direction);
-    float most = upperBits(vec3(b / a)).x;
+    float most = upperBits(vec3(b * inverse)).x;
     vec3 near = (f + high * most) + (direction - high) * most;
-    vec3 l = near - direction * (dot(near, direction) / a);
-    float discriminant = (radius - length(l)) * (radius + length(l));
-    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(a * max(0.0, discriminant));
+    vec3 l = near - direction * (dot(near, direction) * inverse);
+    float apart = length(l);
+    float discriminant = (radius - apart) * (radius + apart);
+    if (!(discriminant >= 0.0 && radius > 0.0)) {
+        return -1.0;
+    }
+    float q = b + (b < 0.0 ? -1.0 : 1.0) * sqrt(a * discriminant);
     float c = (length(f) - radius) * (length(f) + radius);
     float t0 = c / q;
-    float t1 = q / a;
+    float t1 = q * inverse;
     float first = min(t0, t1);
     float last = max(t0, t1);
     float t = onSphere ? (b > 0.0 ? t1 : -1.0) : (first > 0.0 ? first : last);
-    return discriminant >= 0.0 && radius > 0.0 && t > 0.0 && t <= tMax ? t : -1.0;
+    return t > 0.0 && t <= tMax ? t : -1.0;
 }
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef GLIM_LIB_INTERSECT_TRIANGLE
 #define GLIM_LIB_INTERSECT_TRIANGLE
 
+#include "intersect_node.glsl"
+
 // Barycentric weights, not normalized: only those of the closest hit are divided by their sum.
 struct TriangleHit {
     float t;       // < 0: no hit
@@ -44,10 +46,8 @@ Component makeComponent(uint index)
     return Component(index == 0u, index == 1u);
 }
 
-// Shorter components of a direction are too near to denormal numbers to be divided by.
-const float kMinComponent = 1e-20;
-
-Shear makeShear(vec3 d)
+// `reciprocal`: that of the direction d (intersect_node.glsl).
+Shear makeShear(vec3 d, vec3 reciprocal)
 {
     vec3 a = abs(d);
     uint z = a.z >= a.x && a.z >= a.y ? 2u : (a.x >= a.y ? 0u : 1u);
@@ -56,8 +56,9 @@ Shear makeShear(vec3 d)
     uint last = z == 0u ? 2u : z - 1u;
     Shear shear = Shear(vec3(0.0), makeComponent(flip ? last : next), makeComponent(flip ? next : last), makeComponent(z), vec2(0.0));
     vec3 p = permute(d, shear);
-    shear.s = vec3(p.x / p.z, p.y / p.z, 1.0 / p.z);
-    shear.reciprocal = vec2(abs(p.x) > kMinComponent ? 1.0 / p.x : 0.0, abs(p.y) > kMinComponent ? 1.0 / p.y : 0.0);
+    vec3 r = permute(reciprocal, shear);
+    shear.s = vec3(p.xy * r.z, r.z);
+    shear.reciprocal = vec2(abs(p.x) > kSmallestDirection ? r.x : 0.0, abs(p.y) > kSmallestDirection ? r.y : 0.0);
     return shear;
 }
 
@@ -165,9 +166,11 @@ TriangleHit intersectWatertight(vec3 origin, Shear shear, vec3 v0, vec3 v1, vec3
     if (large) {
         depths = computeDepths(a, b, c, shear);
     }
-    float t = depths.reciprocal * (e.x * depths.ofVertices.x + e.y * depths.ofVertices.y + e.z * depths.ofVertices.z) / det;
-    bool hit = !haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0 && t > 0.0 && t <= tMax;
-    return TriangleHit(hit ? t : -1.0, e.yz, det);
+    float t = -1.0;
+    if (!haveBothSigns(e) && !areBeside(pa, pb, pc) && det != 0.0) {  // few: the others need no quotient
+        t = depths.reciprocal * (e.x * depths.ofVertices.x + e.y * depths.ofVertices.y + e.z * depths.ofVertices.z) / det;
+    }
+    return TriangleHit(t > 0.0 && t <= tMax ? t : -1.0, e.yz, det);
 }
 
 #endif

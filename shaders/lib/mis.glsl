@@ -15,12 +15,10 @@ float powerHeuristic(float f, float g)
     if (isinf(f)) {
         return isinf(g) ? 0.5 : 1.0;
     }
-    if (f >= g) {
-        float r = g >= kSmallestNormal ? g / f : 0.0;
-        return 1.0 / (1.0 + r * r);
-    }
-    float r = f / g;
-    return r * r / (1.0 + r * r);
+    float larger = max(f, g), smaller = min(f, g);
+    float r = smaller >= kSmallestNormal ? smaller / larger : 0.0;
+    float weight = 1.0 / (1.0 + r * r);
+    return f >= g ? weight : r * r * weight;
 }
 
 #endif

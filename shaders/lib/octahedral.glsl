@@ -22,7 +22,7 @@ uint encodeNormal(vec3 n)
 vec3 decodeNormal(uint bits)
 {
     ivec2 steps = ivec2(int(bits << 16u) >> 16, int(bits) >> 16);
-    vec2 p = vec2(steps) / kNormalSteps;
+    vec2 p = vec2(steps) * (1.0 / kNormalSteps);
     float z = 1.0 - abs(p.x) - abs(p.y);
     vec3 n = vec3(z >= 0.0 ? p : octahedralWrap(p, 1.0), z);
     return n / sqrt(dot(n, n));

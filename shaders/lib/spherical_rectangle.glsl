@@ -91,7 +91,7 @@ vec2 sampleSphericalRectangle(SphericalRectangle rectangle, vec2 u)
     float farGap = x2 / (farLength * (farLength + far));
     nearGap = near < 0.0 ? 2.0 - nearGap : nearGap;
     float gap = farGap + (fromLowY ? u.y : 1.0 - u.y) * (nearGap - farGap);
-    float y = sqrt(x2) * (1.0 - gap) / sqrt(gap * (2.0 - gap));
+    float y = (1.0 - gap) * sqrt(x2 / (gap * (2.0 - gap)));
 
     vec2 share = (vec2(fromLow ? -x : x, fromLowY ? -y : y) - low) / rectangle.size;
     return vec2(share.x > 0.0 ? min(share.x, 1.0) : 0.0, share.y > 0.0 ? min(share.y, 1.0) : 0.0);  // NaN gives 0

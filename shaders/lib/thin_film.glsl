@@ -18,7 +18,7 @@ vec3 normalReflectance(vec3 to, float from)
 // One Gaussian of the fits: its response to a path difference, phase in radians per wave number.
 float gaussianResponse(float amplitude, float wavenumber, float variance, float phase, float shift)
 {
-    float size = amplitude * sqrt(2.0 * kPi * variance) * portableExp(-variance * phase * phase) / 1.0685e-7;
+    float size = amplitude * sqrt(2.0 * kPi * variance) * portableExp(-variance * phase * phase) * (1.0 / 1.0685e-7);
     float turns = (wavenumber * phase + shift) * (0.5 / kPi);
     return size * sampleCircle(fract(turns + 0.5)).x;  // sampleCircle begins at -pi
 }
@@ -37,7 +37,7 @@ vec3 filmResponse(float difference, vec3 shift)
 // In [0, 1]. `cosine` in air; thickness in nm; baseF0: the base's reflectance in air at normal incidence.
 vec3 filmReflectance(float cosine, float filmIor, float thickness, vec3 baseF0)
 {
-    float t = clamp(thickness / 0.03, 0.0, 1.0);
+    float t = clamp(thickness * (1.0 / 0.03), 0.0, 1.0);
     float ior = mix(1.0, filmIor, t * t * (3.0 - 2.0 * t));  // a film of no thickness has no interface
     float cosine2 = 1.0 - (1.0 - cosine * cosine) / (ior * ior);
     if (cosine2 < 0.0) {

@@ -16,7 +16,7 @@ vec2 sampleDisk(vec2 u)
     }
     bool wide = abs(p.x) > abs(p.y);
     float radius = wide ? p.x : p.y;
-    float quarter = (kPi / 4.0) * (wide ? p.y / p.x : p.x / p.y);
+    float quarter = (kPi / 4.0) * ((wide ? p.y : p.x) / radius);
     vec2 turn = portableCosSin(quarter);
     return radius * (wide ? turn : turn.yx);
 }
@@ -25,8 +25,9 @@ vec2 sampleDisk(vec2 u)
 vec3 sampleCosineHemisphere(vec2 u)
 {
     vec2 disk = sampleDisk(u);
-    float r = length(disk);
-    return vec3(disk, sqrt(max(0.0, (1.0 - r) * (1.0 + r))));
+    vec2 square = abs(2.0 * u - 1.0);
+    float r = max(square.x, square.y);  // the disk point's radius
+    return vec3(disk, sqrt((1.0 - r) * (1.0 + r)));
 }
 
 // Per steradian; 0 below the horizon.

@@ -222,9 +222,9 @@ struct FlatLight {
     vec3 position;        // triangle: vertex 0; rectangle: a corner; sphere: centre; point, spot
     float size;           // triangle, rectangle: area; sphere: radius; point, spot: their range, or 0
     vec3 edge1;           // triangle: to vertex 1; rectangle: a side; spot, directional: unit direction, the way light travels
-    float versineInner;   // spot: 1 - cos of the angle up to which it has all its intensity
+    float versineInner;   // spot: 1 - cos of the angle up to which it has all its intensity; rectangle: 1 / |edge1|
     vec3 edge2;           // triangle: to vertex 2; rectangle: the other side
-    float versineOuter;   // spot: of the angle from which on it has none
+    float versineOuter;   // spot: of the angle from which on it has none; rectangle: 1 / |edge2|
 };
 
 // A node of the light tree: bounds of the lights below it (lib/light_importance.glsl). Node 0 is the root. The children of a node follow

@@ -23,7 +23,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        Shear shear = makeShear(c.direction);
+        Shear shear = makeShear(c.direction, reciprocalDirection(c.direction));
         uvec2 hits = uvec2(0u);
         for (uint i = 0u; i < c.triangles; ++i) {
             vec3 corner[3] = vec3[](c.hub, c.rim[i], c.rim[(i + 1u) % kMaxRim]);

@@ -24,7 +24,7 @@ layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases
 
 void expectVerdict(Case c, bool sliver)
 {
-    Shear shear = makeShear(c.direction);
+    Shear shear = makeShear(c.direction, reciprocalDirection(c.direction));
     TriangleHit hit = intersectWatertight(c.origin, shear, c.v0, c.v1, c.v2, c.tmax, sliver, true);
     bool isHit = hit.t > 0.0;
     EXPECT_TRUE(c.verdict > kHit || isHit == (c.verdict == kHit));

@@ -34,7 +34,7 @@ void main()
         vec3 bound = triangleErrorBound(c.v0, e1, e2, c.large != 0u);
         vec3 origin = offsetPoint(point, c.normal, bound);
         EXPECT_TRUE(dot(origin - point, c.normal) > 0.0);
-        Shear shear = makeShear(c.direction);
+        Shear shear = makeShear(c.direction, reciprocalDirection(c.direction));
         uint self = intersectWatertight(origin, shear, c.v0, c.v1, c.v2, 1e30, false, c.large != 0u).t > 0.0 ? 1u : 0u;
         uint neighbour = intersectWatertight(origin, shear, c.v2, c.v1, c.v3, 1e30, false, c.large != 0u).t > 0.0 ? 1u : 0u;
         // The same normal on a sphere about v0 with the radius |e1|.

@@ -15,9 +15,10 @@ const float kMinAlpha = 1e-3;
 // Density of microfacet normals per steradian, for h on the upper side; in terms of sin^2, without cancellation at small alpha.
 float distributionGgx(vec3 h, vec2 alpha)
 {
-    vec2 slope = h.xy / alpha;
-    float s = dot(slope, slope) + h.z * h.z;
-    return 1.0 / (kPi * alpha.x * alpha.y * s * s);
+    float area = alpha.x * alpha.y;
+    vec3 stretched = vec3(h.xy * alpha.yx, h.z * area);
+    float ratio = area / dot(stretched, stretched);
+    return (1.0 / kPi) * area * ratio * ratio;
 }
 
 // Half vector of two directions on the upper side.
