@@ -1,11 +1,13 @@
 #include "host/render/film.hpp"
 
+#include "host/bvh/parallel_for.hpp"
 #include "host/digest.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 namespace glim {
 namespace {
@@ -87,11 +89,14 @@ void addArithmetic(Film& film, const std::string& arithmetic)
     }
 }
 
-void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page)
+void foldPage(Film& film, std::size_t begin, std::span<const PixelMoments> page)
 {
-    const auto pixels = film.pixels.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::transform(page.begin(), page.end(), pixels, pixels,
-                   [](const PixelMoments& folded, const PixelMoments& known) { return foldMoments(known, folded); });
+    constexpr std::size_t kPart = 1U << 13U;  // large enough to be worth a thread, 0.2 ms
+    parallelFor((page.size() + kPart - 1) / kPart, std::thread::hardware_concurrency(), [&](std::size_t part) {
+        for (std::size_t i = part * kPart; i < std::min(page.size(), (part + 1) * kPart); ++i) {
+            film.pixels[begin + i] = foldMoments(film.pixels[begin + i], page[i]);
+        }
+    });
 }
 
 glm::vec3 computeVarianceOfMean(const PixelMoments& moments)

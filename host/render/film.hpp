@@ -4,6 +4,7 @@
 #include "shaders/shared/pixel_moments.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,7 +66,7 @@ bool hasOneArithmetic(const Film& film);
 void addArithmetic(Film& film, const std::string& arithmetic);
 
 // Folds `page` onto the pixels of `film` from index `begin` on.
-void foldPage(Film& film, std::size_t begin, const std::vector<PixelMoments>& page);
+void foldPage(Film& film, std::size_t begin, std::span<const PixelMoments> page);
 
 // Variance of a pixel's mean from its block means; NaN where fewer than two blocks are known.
 glm::vec3 computeVarianceOfMean(const PixelMoments& moments);

@@ -89,17 +89,21 @@ std::vector<std::uint32_t> FilmAccumulator::testPixels(std::uint32_t samples)
     return chosen;
 }
 
-void FilmAccumulator::foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles)
+void FilmAccumulator::foldPages(std::initializer_list<Film*> films, const std::vector<std::unique_ptr<Tile>>& tiles)
 {
     for (const auto& tile : tiles) {
         tracer_.closeBlocks(*tile);
-        foldPage(film, tile->begin() - settings_.firstPixel(), tile->takePages());
+        tile->takePages([&](std::size_t first, std::span<const PixelMoments> pages) {
+            for (Film* film : films) {
+                foldPage(*film, tile->begin() - settings_.firstPixel() + first, pages);
+            }
+        });
     }
 }
 
 void FilmAccumulator::fold()
 {
-    foldPages(film_, tiles_);
+    foldPages({&film_}, tiles_);
     if (splats_) {
         splats_->foldInto(film_.splats);
     }
@@ -108,12 +112,7 @@ void FilmAccumulator::fold()
 
 void FilmAccumulator::foldCommon()
 {
-    for (const auto& tile : tiles_) {
-        tracer_.closeBlocks(*tile);
-        const std::vector<PixelMoments> pages = tile->takePages();
-        foldPage(film_, tile->begin(), pages);
-        foldPage(common_, tile->begin(), pages);
-    }
+    foldPages({&film_, &common_}, tiles_);
     if (splats_) {
         splats_->foldInto(film_.splats);
     }
@@ -131,7 +130,7 @@ Film FilmAccumulator::pageSoFar()
         copies.push_back(resources_.makeTile(tile->begin(), tile->count()));
         copies.back()->copySamples(*tile, 0);
     }
-    foldPages(page, copies);
+    foldPages({&page}, copies);
     if (splats_) {
         SplatSums(*splats_).foldInto(page.splats);
     }
@@ -164,7 +163,7 @@ PixelMoments FilmAccumulator::sum(std::uint32_t pixel)
     const std::unique_ptr<Tile> copy = resources_.makeTile(pixel, 1);
     copy->copySamples(tile, pixel - tile.begin());
     tracer_.closeBlocks(*copy);
-    return foldMoments(film_.pixels[pixel], copy->takePages().front());
+    return foldMoments(film_.pixels[pixel], copy->readPages().front());
 }
 
 Film FilmAccumulator::takeFilm()
@@ -177,7 +176,7 @@ std::vector<PixelMoments> FilmAccumulator::takePages()
 {
     Film page;
     page.pixels.resize(settings_.pixelCount());
-    foldPages(page, tiles_);
+    foldPages({&page}, tiles_);
     return std::move(page.pixels);
 }
 

@@ -55,7 +55,8 @@ public:
 private:
     void makeTiles();
     void begin(Film film);
-    void foldPages(Film& film, const std::vector<std::unique_ptr<Tile>>& tiles);
+    // Into each of the films.
+    void foldPages(std::initializer_list<Film*> films, const std::vector<std::unique_ptr<Tile>>& tiles);
     Film pageSoFar();
     void renewVersion();
 

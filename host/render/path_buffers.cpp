@@ -216,11 +216,10 @@ void Tile::fillWithZero(std::initializer_list<const Buffer*> buffers)
     commands.submitAndWait();
 }
 
-std::vector<PixelMoments> Tile::takePages()
+void Tile::takePages(const std::function<void(std::size_t, std::span<const PixelMoments>)>& look)
 {
-    std::vector<PixelMoments> pages = download<PixelMoments>(pages_, count_);
+    read<PixelMoments>(pages_, count_, look);
     fillWithZero({&pages_});
-    return pages;
 }
 
 void Tile::chooseAll()

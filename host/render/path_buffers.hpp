@@ -7,6 +7,7 @@
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
 
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <vector>
@@ -87,8 +88,8 @@ public:
     // One per pixel if the render's settings ask for suspects.
     const Buffer& brightest() const { return brightest_; }
 
-    // Reads the pages and empties them.
-    std::vector<PixelMoments> takePages();
+    // Shows the pages, in parts and with the first pixel of each, and empties them.
+    void takePages(const std::function<void(std::size_t first, std::span<const PixelMoments> pages)>& look);
     std::vector<PixelMoments> readPages() const { return download<PixelMoments>(pages_, count_); }
     void writePages(std::span<const PixelMoments> pages) { upload(pages_, pages); }
     // Empties everything; all pixels are chosen.

@@ -78,6 +78,43 @@ INSTANTIATE_TEST_SUITE_P(Schedules, PassCostTest, testing::Values(Schedule::Wave
                          [](const testing::TestParamInfo<Schedule>& schedule) { return std::string(getName(schedule.param)); });
 
 // A GPU with 256 MiB of its memory in view of the host, and one that shares all memory, as drivers list their types.
+// What the page of a picture without samples costs: it ends the blocks, reads pages and empties them. Memory is allocated for none of
+// this.
+VulkanCalls costOfFold(Device& device, std::uint32_t size)
+{
+    const Scene scene = mixedScene();
+    const FlatScene flat = flattened(scene);
+    const RenderSettings settings = squareSettings(size, 1);
+    RenderResources resources(device, flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
+    FilmAccumulator films(resources, settings, emptyFilm(settings), std::nullopt);
+    films.fold();
+    const VulkanCalls before = vulkanCalls();
+    films.fold();
+    return vulkanCalls() - before;
+}
+
+TEST(FoldCostTest, WhereMemoryIsSharedPagesAreFoldedWhereTheyLie)
+{
+    const VulkanCalls cost = costOfFold(testDevice(), 640);
+    EXPECT_EQ(cost.objects, 0U);
+    if (isSoftware(testDevice().description().deviceClass)) {
+        EXPECT_EQ(cost.waits, 2U);
+        EXPECT_EQ(cost.copies, 0U);
+    }
+}
+
+TEST(FoldCostTest, ADeviceWithMemoryOfItsOwnCopiesPagesOnce)
+{
+    const VulkanInstance instance;
+    Device device(instance, std::nullopt, VK_NULL_HANDLE, DeviceClass::DiscreteGpu);
+    for (const auto& [size, parts] : {std::pair(16U, 1U), std::pair(640U, 2U)}) {
+        const VulkanCalls cost = costOfFold(device, size);
+        EXPECT_EQ(cost.objects, 0U);
+        EXPECT_EQ(cost.waits, 2U + parts);
+        EXPECT_EQ(cost.copies, parts + 4 * cost.submits) << "and the four small buffers";
+    }
+}
+
 TEST(KernelMemoryTest, IsTheDevicesOwnAndMappedOnlyIfShared)
 {
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 
@@ -114,6 +115,24 @@ TEST_F(StagingTest, FillsAndCopies)
     EXPECT_TRUE(download<std::byte>(c, size) == last);
 }
 
+// Pages of pixels have an odd number of words.
+TEST_F(StagingTest, AReadShowsEachElementOnceAndWhole)
+{
+    using Element = std::array<std::byte, 52>;
+    for (const std::size_t count : {std::size_t{1}, kStagingBytes / sizeof(Element), 2 * kStagingBytes / sizeof(Element) + 3}) {
+        Buffer buffer = storage(count * sizeof(Element));
+        const Bytes sent = makeBytes(buffer.size(), count);
+        buffer.upload(sent);
+        Bytes seen;
+        read<Element>(buffer, count, [&](std::size_t first, std::span<const Element> part) {
+            EXPECT_EQ(first * sizeof(Element), seen.size());
+            const auto bytes = std::as_bytes(part);
+            seen.insert(seen.end(), bytes.begin(), bytes.end());
+        });
+        EXPECT_TRUE(seen == sent) << count;
+    }
+}
+
 // What tools/gpu_check reports.
 TEST_F(StagingTest, CopiesInGigabytesPerSecond)
 {
@@ -161,6 +180,20 @@ TEST_F(StagingTest, ARenderHasTheBitsOfASoftwareDevice)
             EXPECT_EQ(stagedRays, mappedRays) << getName(schedule);
         }
     }
+}
+
+// Its pages have two parts, each of which several threads fold.
+TEST_F(StagingTest, ALargePictureHasTheBitsOfASoftwareDevice)
+{
+    const Scene scene = mixedScene();
+    const RenderSettings settings = squareSettings(640, 1);
+    ASSERT_GT(settings.pixelCount() * sizeof(PixelMoments), kStagingBytes);
+    const auto render = [&](Device& on) {
+        return Renderer(on, flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings).render([](const RenderProgress&) {
+            return true;
+        });
+    };
+    EXPECT_TRUE(sameBits(render(device), render(testDevice())));
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ std::vector<Film> renderSingleSamples(const Scene& scene, const RenderSettings& 
         Film& film = films[pass.firstSample];
         film.width = settings.width;
         film.height = settings.height;
-        film.pixels = tile->takePages();
+        film.pixels = tile->readPages();
+        tile->clear();
     }
     RenderSettings last = settings;
     last.sampleBegin = settings.sampleEnd - 1;
