@@ -18,7 +18,8 @@ constexpr double kMinDispatchShare = 0.01;
 // The paths of a first pass, for one round of direct light and rays of kUsualSteps steps.
 constexpr std::uint32_t kFirstPassPaths = 1U << 14;
 constexpr std::uint64_t kUsualSteps = 64;
-// The next pass may cost much more than the last one, as where the sky ends. So it is no larger than this unless the device is fast.
+// The next pass may cost much more than the last one, as where the sky ends. So it is no larger than this unless the longest dispatch is
+// to take less than kFastDispatchSeconds.
 constexpr std::uint32_t kUnsurePaths = 1U << 17;
 constexpr double kFastDispatchSeconds = 0.005;
 
@@ -46,8 +47,8 @@ void PassSize::learn(std::uint32_t paths, const PassSeconds& seconds)
     }
     const double byPass = passSeconds_ * std::max(1.0 / seconds.total, kMinDispatchShare / seconds.longest);
     const double scale = std::clamp(std::min(kTargetDispatchSeconds / seconds.longest, byPass), 0.5, 2.0);
-    const std::uint32_t most = seconds.longest < kFastDispatchSeconds ? capacity_ : std::min(capacity_, kUnsurePaths);
-    paths_ = static_cast<std::uint32_t>(std::clamp(paths * scale, double{kBlockSamples}, double(most)));
+    const double fast = std::max(paths * (kFastDispatchSeconds / seconds.longest), double{kUnsurePaths});
+    paths_ = static_cast<std::uint32_t>(std::clamp(paths * scale, double{kBlockSamples}, std::min(fast, double(capacity_))));
 }
 
 }  // namespace glim

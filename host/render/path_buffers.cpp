@@ -72,7 +72,7 @@ std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDes
     if (settings.pathCapacity) {
         return std::min(*settings.pathCapacity, most);
     }
-    const auto ofMemory = static_cast<std::uint32_t>(std::min<std::uint64_t>(device.memory / 8 / kPathBytes, most));
+    const auto ofMemory = static_cast<std::uint32_t>(std::min<std::uint64_t>(device.memory / kPathPart / kPathBytes, most));
     return std::max(kBlockSamples, std::bit_floor(std::min(rulesOf(device.deviceClass).pathCapacity, ofMemory)));
 }
 

@@ -22,7 +22,7 @@ std::vector<BindingSlot> kernelSlots();
 
 // The most paths that a device's limits have room for.
 std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device);
-// The paths in flight: as many as are asked for, or else as suit the device's class and an eighth of its memory, within its limits.
+// The paths in flight: as many as are asked for, or else as suit the device's class and kPathPart of its memory, within its limits.
 std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDescription& device);
 
 class PathBuffers {

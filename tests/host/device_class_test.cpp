@@ -44,7 +44,7 @@ TEST(PathCapacityChoiceTest, IsThatOfTheClass)
     EXPECT_EQ(of(DeviceClass::Llvmpipe), 1U << 18U);
     EXPECT_EQ(of(DeviceClass::Software), 1U << 18U);
     EXPECT_EQ(of(DeviceClass::SharedGpu), 1U << 20U);
-    EXPECT_EQ(of(DeviceClass::DiscreteGpu), 1U << 22U);
+    EXPECT_EQ(of(DeviceClass::DiscreteGpu), 1U << 23U);
 }
 
 // Each bound alone, with a power of two of paths.
@@ -54,10 +54,14 @@ TEST(PathCapacityChoiceTest, IsBoundedByWhatTheDeviceHas)
         DeviceDescription device = roomy(DeviceClass::DiscreteGpu);
         change(device);
         const std::uint32_t paths = choosePathCapacity({}, device);
-        EXPECT_LE(PathBuffers::sizeInBytes(paths), std::max(device.memory / 8, PathBuffers::sizeInBytes(kBlockSamples)));
+        EXPECT_LE(PathBuffers::sizeInBytes(paths), std::max(device.memory / 10, PathBuffers::sizeInBytes(kBlockSamples)));
         return paths;
     };
-    EXPECT_EQ(chosen([](DeviceDescription& d) { d.memory = std::uint64_t{4} << 30U; }), 1U << 21U);
+    const auto ofMemory = [&](std::uint64_t mebibytes) { return chosen([&](DeviceDescription& d) { d.memory = mebibytes << 20U; }); };
+    EXPECT_EQ(ofMemory(16376), 1U << 23U) << "a card of 16 GiB";
+    EXPECT_EQ(ofMemory(12288), 1U << 22U);
+    EXPECT_EQ(ofMemory(8192), 1U << 22U);
+    EXPECT_EQ(ofMemory(4096), 1U << 21U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxStorageBuffer = 128U << 20U; }), 1U << 21U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxAllocation = 128U << 20U; }), 1U << 21U);
     EXPECT_EQ(chosen([](DeviceDescription& d) { d.maxTexelElements = 65536; }), 1U << 14U);
