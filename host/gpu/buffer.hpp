@@ -16,7 +16,7 @@ enum class BufferKind {
     Texel8,    // as texels of 8 bytes (uvec2)
     Texel4,    // as texels of 4 bytes, each one number (uvec4 of bytes)
     Both,      // as Storage, and as texels at another binding
-    Readback,  // as Storage, but small: the host has a copy, which each submission brings up to date
+    Readback,  // as Storage, but small: the host has a copy, which each wait brings up to date
 };
 
 constexpr bool hasTexels(BufferKind kind) { return kind != BufferKind::Storage && kind != BufferKind::Readback; }

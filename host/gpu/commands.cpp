@@ -12,8 +12,15 @@ Commands::Commands(const Device& device)
 
 Commands::~Commands()
 {
+    if (started_ && !ended_) {
+        vkQueueWaitIdle(device_.queue());
+    }
     if (ended_) {
-        device_.reused().giveBack(std::move(submission_), static_cast<std::uint32_t>(timed_.size()));
+        const auto timed = static_cast<std::uint32_t>(timed_.size());
+        device_.reused().giveBack(std::move(submission_), started_ ? 0 : timed);
+        if (started_) {
+            device_.reused().giveBack(std::move(started_), timed);
+        }
     }
 }
 
@@ -22,14 +29,13 @@ void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<c
     assert(push.size() <= kernel.layout().pushSize());
     const VkDescriptorSet set = bindings.set();
     const VkPipelineLayout layout = kernel.layout().pipelineLayout();
-    vkCmdBindPipeline(submission_->buffer, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-    vkCmdBindDescriptorSets(submission_->buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    vkCmdBindPipeline(list(), VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+    vkCmdBindDescriptorSets(list(), VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
     if (!push.empty()) {
-        vkCmdPushConstants(submission_->buffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()),
-                           push.data());
+        vkCmdPushConstants(list(), layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()), push.data());
     }
     if (isTimed()) {
-        vkCmdWriteTimestamp(submission_->buffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, submission_->queries.get(),
+        vkCmdWriteTimestamp(list(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timer().queries.get(),
                             static_cast<std::uint32_t>(2 * timed_.size()));
     }
 }
@@ -37,7 +43,7 @@ void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<c
 void Commands::end(const Kernel& kernel)
 {
     if (isTimed()) {
-        vkCmdWriteTimestamp(submission_->buffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, submission_->queries.get(),
+        vkCmdWriteTimestamp(list(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timer().queries.get(),
                             static_cast<std::uint32_t>(2 * timed_.size() + 1));
         timed_.push_back(kernel.name());
     }
@@ -51,15 +57,15 @@ void Commands::barrier()
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT |
                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
-    vkCmdPipelineBarrier(submission_->buffer, stages, stages | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                         &memory, 0, nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(list(), stages, stages | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0,
+                         nullptr, 0, nullptr);
 }
 
 void Commands::dispatch(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, std::uint32_t groups)
 {
     assert(groups <= device_.description().maxGroups);
     begin(kernel, bindings, push);
-    vkCmdDispatch(submission_->buffer, groups, 1, 1);
+    vkCmdDispatch(list(), groups, 1, 1);
     end(kernel);
 }
 
@@ -67,21 +73,21 @@ void Commands::dispatchIndirect(const Kernel& kernel, const Bindings& bindings, 
                                 std::uint64_t offset)
 {
     begin(kernel, bindings, push);
-    vkCmdDispatchIndirect(submission_->buffer, arguments.handle(), offset);
+    vkCmdDispatchIndirect(list(), arguments.handle(), offset);
     end(kernel);
 }
 
 void Commands::fillWithZero(const Buffer& buffer)
 {
     assert(buffer.size() % 4 == 0);
-    vkCmdFillBuffer(submission_->buffer, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
+    vkCmdFillBuffer(list(), buffer.handle(), 0, VK_WHOLE_SIZE, 0);
     barrier();
 }
 
 void Commands::copy(VkBuffer source, std::uint64_t sourceOffset, VkBuffer target, std::uint64_t bytes, std::uint64_t targetOffset)
 {
     const VkBufferCopy region{sourceOffset, targetOffset, bytes};
-    vkCmdCopyBuffer(submission_->buffer, source, target, 1, &region);
+    vkCmdCopyBuffer(list(), source, target, 1, &region);
     barrier();
 }
 
@@ -96,8 +102,8 @@ void Commands::transition(VkImage image, VkImageLayout from, VkImageLayout to)
     change.srcQueueFamilyIndex = change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     change.image = image;
     change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdPipelineBarrier(submission_->buffer, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0,
-                         nullptr, 1, &change);
+    vkCmdPipelineBarrier(list(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                         &change);
 }
 
 void Commands::clear(const StorageImage& image)
@@ -105,7 +111,7 @@ void Commands::clear(const StorageImage& image)
     transition(image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkClearColorValue black{{0.0F, 0.0F, 0.0F, 1.0F}};
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdClearColorImage(submission_->buffer, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &all);
+    vkCmdClearColorImage(list(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &all);
     transition(image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
 }
 
@@ -117,8 +123,8 @@ void Commands::blit(const StorageImage& image, VkImage target, VkExtent2D size)
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.srcOffsets[1] = {static_cast<std::int32_t>(image.width()), static_cast<std::int32_t>(image.height()), 1};
     region.dstOffsets[1] = {static_cast<std::int32_t>(size.width), static_cast<std::int32_t>(size.height), 1};
-    vkCmdBlitImage(submission_->buffer, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                   1, &region, VK_FILTER_NEAREST);
+    vkCmdBlitImage(list(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   VK_FILTER_NEAREST);
     transition(image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
     transition(target, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
@@ -128,23 +134,38 @@ void Commands::copyToHost()
 {
     const std::vector<const HostCopy*>& copies = device_.reused().hostCopies();
     for (const HostCopy* each : copies) {
-        each->record(submission_->buffer);
+        each->record(list());
     }
     if (!copies.empty()) {
         barrier();
     }
 }
 
+void Commands::submit(VkSemaphore done, VkFence fence)
+{
+    const VkCommandBuffer commands = list();
+    check(vkEndCommandBuffer(commands), "end a command buffer");
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands;
+    info.signalSemaphoreCount = done == VK_NULL_HANDLE ? 0 : 1;
+    info.pSignalSemaphores = &done;
+    check(vkQueueSubmit(device_.queue(), 1, &info, fence), "submit work");
+}
+
+void Commands::start()
+{
+    assert(!started_);
+    std::unique_ptr<Submission> next = device_.reused().take();
+    submit(VK_NULL_HANDLE, VK_NULL_HANDLE);
+    started_ = std::exchange(submission_, std::move(next));
+}
+
+// The fence is signalled once all that was submitted before has ended too.
 void Commands::submitAndWait(VkSemaphore done)
 {
     copyToHost();
-    check(vkEndCommandBuffer(submission_->buffer), "end a command buffer");
-    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-    info.commandBufferCount = 1;
-    info.pCommandBuffers = &submission_->buffer;
-    info.signalSemaphoreCount = done == VK_NULL_HANDLE ? 0 : 1;
-    info.pSignalSemaphores = &done;
-    check(vkQueueSubmit(device_.queue(), 1, &info, submission_->fence.get()), "submit work");
+    submit(done, submission_->fence.get());
     check(vkWaitForFences(device_.handle(), 1, submission_->fence.address(), VK_TRUE, UINT64_MAX), "wait for the device");
     ended_ = true;
     device_.instance().refuseMessages();
@@ -154,7 +175,7 @@ std::vector<KernelTime> Commands::times() const
 {
     std::vector<std::uint64_t> ticks(2 * timed_.size());
     if (!ticks.empty()) {
-        check(vkGetQueryPoolResults(device_.handle(), submission_->queries.get(), 0, static_cast<std::uint32_t>(ticks.size()),
+        check(vkGetQueryPoolResults(device_.handle(), timer().queries.get(), 0, static_cast<std::uint32_t>(ticks.size()),
                                     ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
                                     VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
               "read timestamps");

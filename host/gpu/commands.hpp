@@ -1,4 +1,4 @@
-// A list of commands for the device, run once. All synchronisation is made here: a full barrier follows every command.
+// A list of commands for the device, run once, in their order. All synchronisation is made here: a full barrier follows every command.
 #pragma once
 
 #include "host/gpu/kernel.hpp"
@@ -35,9 +35,11 @@ public:
     template <class Write>
     void record(Write&& write)
     {
-        write(submission_->buffer);
+        write(list());
     }
 
+    // Lets the device begin with the commands so far, while others are recorded. It may be called once.
+    void start();
     // Runs all commands and waits for their end. It may be called once. `done`, if given, is signalled too. Throws DeviceError if
     // the device fails or the validation layers have printed a message.
     void submitAndWait(VkSemaphore done = VK_NULL_HANDLE);
@@ -53,12 +55,16 @@ private:
     void transition(VkImage image, VkImageLayout from, VkImageLayout to);
 
     void copyToHost();
-    bool isTimed() const { return submission_->queries.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed; }
+    void submit(VkSemaphore done, VkFence fence);
+    VkCommandBuffer list() const { return submission_->buffer; }
+    const Submission& timer() const { return started_ ? *started_ : *submission_; }
+    bool isTimed() const { return timer().queries.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed; }
 
     const Device& device_;
     std::unique_ptr<Submission> submission_;
-    bool ended_ = false;              // on the device
-    std::vector<std::string> timed_;  // kernel names, one per timed dispatch
+    std::unique_ptr<Submission> started_;  // what start() has submitted; its queries time all dispatches
+    bool ended_ = false;                   // on the device
+    std::vector<std::string> timed_;       // kernel names, one per timed dispatch
 };
 
 }  // namespace glim

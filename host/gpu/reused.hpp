@@ -38,7 +38,7 @@ private:
     void* mapped_ = nullptr;
 };
 
-// The host's copy of a buffer. Each submission brings it up to date.
+// The host's copy of a buffer. Each submission that is waited for brings it up to date.
 class HostCopy {
 public:
     HostCopy(Reused& reused, const Device& device, VkBuffer of, std::uint64_t size);

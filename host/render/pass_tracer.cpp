@@ -68,6 +68,9 @@ bool PassTracer::traceToEnd(Recording& recording, const Tile& tile, Pass pass, c
     while (!recording.isStopped() && pass.bounce <= last) {
         for (; rounds > 0 && pass.bounce <= last; --rounds, ++pass.bounce) {
             recordRound(recording, tile.bindings(pass.bounce % 2), pass);
+            if (!persistent && pass.bounce == 0 && rounds > 1) {
+                recording.start();  // most paths are in bounce 0: the host records the others meanwhile
+            }
         }
         recordEnd();
         const bool isWhole = !recording.isStopped();

@@ -80,6 +80,13 @@ void Recording::keepTogether(std::uint32_t dispatches)
     together_ = recorded_ + dispatches;
 }
 
+void Recording::start()
+{
+    if (commands_) {
+        commands_->start();
+    }
+}
+
 void Recording::finish()
 {
     if (!commands_) {

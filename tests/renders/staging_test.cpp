@@ -47,7 +47,7 @@ TEST_F(StagingTest, NoMemoryOfKernelsIsMapped)
 }
 
 // Whatever is submitted, and also after the buffer has moved or another one has gone.
-TEST_F(StagingTest, EachSubmissionCopiesReadbackBuffersToTheHost)
+TEST_F(StagingTest, EachWaitCopiesReadbackBuffersToTheHost)
 {
     const auto readback = [&](std::uint64_t seed) {
         Buffer buffer(device, "test's bytes", BufferKind::Readback, 64);
@@ -130,6 +130,28 @@ TEST_F(StagingTest, AReadShowsEachElementOnceAndWhole)
             seen.insert(seen.end(), bytes.begin(), bytes.end());
         });
         EXPECT_TRUE(seen == sent) << count;
+    }
+}
+
+// The device runs what was started before what comes later, and all of it even if the later part is given up.
+TEST_F(StagingTest, WhatIsStartedRunsFirst)
+{
+    Buffer a = storage(64), b = storage(64), c = storage(64);
+    a.upload(makeBytes(64, 1));
+    for (const bool isGivenUp : {false, true, false}) {
+        b.upload(makeBytes(64, 2));
+        c.upload(makeBytes(64, 3));
+        {
+            Commands commands(device);
+            commands.copy(a.handle(), 0, b.handle(), 64);
+            commands.start();
+            commands.copy(b.handle(), 0, c.handle(), 64);
+            if (!isGivenUp) {
+                commands.submitAndWait();
+            }
+        }
+        EXPECT_TRUE(download<std::byte>(b, 64) == makeBytes(64, 1));
+        EXPECT_TRUE(download<std::byte>(c, 64) == makeBytes(64, isGivenUp ? 3 : 1));
     }
 }
 
