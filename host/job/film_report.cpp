@@ -25,13 +25,24 @@ double computeMean(const Film& film, Value value)
 
 // Nothing for AOVs other than radiance, whose noise is negligible. Nothing if an adaptive render has stopped a pixel after one block of
 // samples: its error is unknown, and the other pixels do not stand for it.
-std::optional<ErrorEstimate> knownError(const Film& film, const RenderSettings& settings)
+std::optional<ErrorEstimate> findEstimate(const Film& film, const RenderSettings& settings)
 {
     const bool stops = isCourse(settings.adaptive);
     if (settings.aov != Aov::Radiance || (stops && computeRates(film).fewestBlocks < 2)) {
         return std::nullopt;
     }
     return estimateError(film);
+}
+
+std::optional<double> findBound(const Film& film, const RenderSettings& settings)
+{
+    if (settings.aov != Aov::Radiance || isCourse(settings.adaptive) || pixelsWithoutError(film) == 0) {
+        return std::nullopt;
+    }
+    const Picture picture = makePicture(film);
+    const std::optional<double> mse = boundMse(picture);
+    const double share = mse ? relativeRoot(*mse, meanRadiance(picture)) : 0.0;
+    return share > 0.0 && std::isfinite(share) ? std::optional(share) : std::nullopt;
 }
 
 }  // namespace
@@ -81,16 +92,7 @@ std::size_t pixelsWithoutError(const Film& film)
         std::count_if(film.pixels.begin(), film.pixels.end(), [](const PixelMoments& pixel) { return pixel.blocks < 2; }));
 }
 
-std::optional<double> boundError(const Film& film, const RenderSettings& settings)
-{
-    if (settings.aov != Aov::Radiance || isCourse(settings.adaptive) || pixelsWithoutError(film) == 0) {
-        return std::nullopt;
-    }
-    const Picture picture = makePicture(film);
-    const std::optional<double> mse = boundMse(picture);
-    const double share = mse ? relativeRoot(*mse, meanRadiance(picture)) : 0.0;
-    return share > 0.0 && std::isfinite(share) ? std::optional(share) : std::nullopt;
-}
+FilmError findError(const Film& film, const RenderSettings& settings) { return {findEstimate(film, settings), findBound(film, settings)}; }
 
 std::string whyUnknown(const Film& film)
 {
@@ -104,9 +106,9 @@ std::string whyUnknown(const Film& film)
                                                             : "its radiance is so large that float32 does not hold the squares";
 }
 
-Json describeEstimate(const Film& film, const RenderSettings& settings)
+Json describeEstimate(const FilmError& error)
 {
-    const auto estimate = knownError(film, settings);
+    const std::optional<ErrorEstimate>& estimate = error.estimate;
     if (!estimate) {
         return nullptr;
     }
@@ -123,14 +125,13 @@ Json describeEstimate(const Film& film, const RenderSettings& settings)
             {"pixelsOfHalf", estimate->pixelsOfHalf}};
 }
 
-std::string errorText(const Film& film, const RenderSettings& settings)
+std::string errorText(const FilmError& error, const Film& film, const RenderSettings& settings)
 {
-    const auto estimate = knownError(film, settings);
+    const std::optional<ErrorEstimate>& estimate = error.estimate;
     if (!estimate) {
-        const auto bound = boundError(film, settings);
-        return bound ? format(", RMSE at most %.3g %% of the mean (by how neighbouring pixels differ; more samples give an estimate)",
-                              100.0 * *bound)
-                     : ", error unknown: " + whyUnknown(film);
+        return error.bound ? format(", RMSE at most %.3g %% of the mean (by how neighbouring pixels differ; more samples give an estimate)",
+                                    100.0 * *error.bound)
+                           : ", error unknown: " + whyUnknown(film);
     }
     const auto percent = [&](double meanSquare) { return 100.0 * relativeRoot(meanSquare, estimate->mean); };
     std::string text =

@@ -52,16 +52,20 @@ inline constexpr std::uint32_t kSamplesOfUnknownError = 1024;
 // The number of pixels with at most one block of samples.
 std::size_t pixelsWithoutError(const Film& film);
 
-// At most this is the RMSE of a film whose pixels have too few samples for an estimate, relative to the mean (boundMse).
-std::optional<double> boundError(const Film& film, const RenderSettings& settings);
+// What is known of the error of a film.
+struct FilmError {
+    std::optional<ErrorEstimate> estimate;
+    std::optional<double> bound;  // of the RMSE relative to the mean, where pixels have too few samples for an estimate (boundMse)
+};
+FilmError findError(const Film& film, const RenderSettings& settings);
 
 // Of a film whose error is unknown, as in "the picture is black".
 std::string whyUnknown(const Film& film);
 
 // null where the error is unknown.
-Json describeEstimate(const Film& film, const RenderSettings& settings);
+Json describeEstimate(const FilmError& error);
 
 // Reads like ", estimated relMSE .001 [.0009, .0011], RMSE 2 % [...] of the mean".
-std::string errorText(const Film& film, const RenderSettings& settings);
+std::string errorText(const FilmError& error, const Film& film, const RenderSettings& settings);
 
 }  // namespace glim

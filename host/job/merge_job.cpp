@@ -48,7 +48,7 @@ Json describe(const MergedFilm& merged)
     return {{"samples", sampleRangesText(merged.film)},
             {"exact", merged.exact},
             {"complete", merged.film.complete},
-            {"estimate", isKnown ? describeEstimate(merged.film, RenderSettings()) : Json()}};
+            {"estimate", isKnown ? describeEstimate(findError(merged.film, RenderSettings())) : Json()}};
 }
 
 }  // namespace glim

@@ -1,7 +1,6 @@
 #include "host/job/render_report.hpp"
 
 #include "host/job/exposure_advice.hpp"
-#include "host/job/film_report.hpp"
 #include "host/job/output_file.hpp"
 #include "host/message.hpp"
 #include "host/render/film_file.hpp"
@@ -36,11 +35,7 @@ double shortest(float value)
     return std::strtod(text, nullptr);
 }
 
-Json boundOf(const RenderReport& report)
-{
-    const auto bound = boundError(report.film, report.options.settings);
-    return bound ? Json(*bound) : Json(nullptr);
-}
+Json boundOf(const RenderReport& report) { return report.error && report.error->bound ? Json(*report.error->bound) : Json(nullptr); }
 
 Json clampingOf(const Film& film, const RenderJob& options)
 {
@@ -185,8 +180,8 @@ Json statisticsOf(const RenderReport& report)
               {"ids", report.idSeconds}}},
             {"samples", s.samples},
             {"resumedSamples", s.resumedSamples},
-            {"digest", computeDigest(report.film)},
-            {"pixelsDigest", computePixelsDigest(report.film)},
+            {"digest", report.digests.film},
+            {"pixelsDigest", report.digests.pixels},
             {"samplesPerSecond", perSecond(s.samples, s.renderSeconds)},
             {"rays", {{"closest", s.cameraAndBounceRays}, {"shadow", s.shadowRays}, {"total", rays}}},
             {"raysPerSecond", perSecond(rays, s.renderSeconds)},
@@ -202,7 +197,7 @@ Json statisticsOf(const RenderReport& report)
             {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
             {"look", lookOf(report)},
             {"clampIndirect", clampingOf(report.film, report.options)},
-            {"estimate", describeEstimate(report.film, report.options.settings)},
+            {"estimate", report.error ? describeEstimate(*report.error) : Json(nullptr)},
             {"rmseOfMeanBound", boundOf(report)},
             {"denoised", report.denoising ? denoisingJson(*report.denoising) : Json(nullptr)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
@@ -256,7 +251,7 @@ std::string qualityText(const RenderReport& report)
     if (aov != Aov::Radiance) {
         return "";
     }
-    std::string text = errorText(report.film, report.options.settings);
+    std::string text = report.error ? errorText(*report.error, report.film, report.options.settings) : "";
     if (report.bias) {
         const Interval& bias = report.bias->bias;
         text += format(", bias %+.2f %% [%+.2f, %+.2f] by %zu control pixels", 100.0 * bias.value, 100.0 * bias.low, 100.0 * bias.high,

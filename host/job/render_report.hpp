@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/job/denoising.hpp"
+#include "host/job/film_report.hpp"
 #include "host/job/render_job.hpp"
 #include "host/measure/control_bias.hpp"
 #include "host/render/prepare_scene.hpp"
@@ -15,7 +16,9 @@ struct RenderReport {
     const RenderJob& options;
     const PreparedScene& prepared;
     const Film& film;
-    std::optional<Look> look;  // of the picture, if one was asked for
+    FilmDigests digests;             // if statistics are asked for
+    std::optional<FilmError> error;  // nothing if there was no memory to find it
+    std::optional<Look> look;        // of the picture, if one was asked for
     const RenderStatistics& statistics;
     const DeviceDescription& device;
     std::string stopReason;  // "samples", "time", "tolerance", "target", "unknown error", or the signal's name

@@ -81,18 +81,17 @@ std::optional<Look> drawFilm(const RenderJob& options, const Film& film)
     return look;
 }
 
-void writeFilmOf(const RenderJob& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
+// Returns its digests if a film is asked for.
+std::optional<FilmDigests> writeFilmOf(const RenderJob& options, const RenderedFilm& rendered, const std::optional<Denoising>& denoising)
 {
     if (!options.output) {
-        return;
+        return std::nullopt;
     }
     if (denoising) {
-        writeFilm(*options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
-    } else if (rendered.checkpoint) {
-        writeFilm(*options.output, rendered.film, *rendered.checkpoint);
-    } else {
-        writeFilm(*options.output, rendered.film);
+        return writeFilm(*options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
     }
+    return rendered.checkpoint ? writeFilm(*options.output, rendered.film, *rendered.checkpoint)
+                               : writeFilm(*options.output, rendered.film);
 }
 
 RenderedFilm renderWatched(Renderer& renderer, const RenderJob& options, FilmDenoiser& denoiser, CheckpointWriter& writer,
@@ -352,7 +351,7 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     labelFilm(film, options);
     const std::optional<Denoising>& denoising = rendered.denoising;
     const auto start = Clock::now();
-    writeFilmOf(options, rendered, denoising);
+    std::optional<FilmDigests> digests = writeFilmOf(options, rendered, denoising);
     const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
     const double writeSeconds = secondsSince(start);
     warnIfUnknown(rendered);
@@ -364,9 +363,14 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = tryTo("find the brightest samples", [&] { return findSuspects(session_.renderer(), film); });
     const auto bias = tryTo("measure the bias", [&] { return measureBias(session_.renderer(), film, *watch_); });
+    if (options.stats && !digests) {
+        digests = computeDigests(film);
+    }
     const RenderReport report{options,
                               session_.prepared(),
                               film,
+                              digests.value_or(FilmDigests()),
+                              tryTo("estimate the error", [&] { return std::optional(findError(film, options.settings)); }),
                               look,
                               session_.renderer().statistics(),
                               session_.device().description(),

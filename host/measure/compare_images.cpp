@@ -277,10 +277,15 @@ std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture
 
 std::optional<SquaredErrors> estimateErrors(const Picture& picture)
 {
+    return estimateErrors(picture, robustRadiance(picture.width, picture.height, picture.radiance, picture.variance));
+}
+
+std::optional<SquaredErrors> estimateErrors(const Picture& picture, const std::vector<glm::dvec3>& likely)
+{
     if (!std::ranges::all_of(picture.radiance, [](const glm::vec3& radiance) { return isFinite(radiance); })) {
         return std::nullopt;
     }
-    return errorsRelativeTo(robustRadiance(picture.width, picture.height, picture.radiance, picture.variance), picture);
+    return errorsRelativeTo(likely, picture);
 }
 
 std::optional<SquaredErrors> estimateReferenceNoise(const Picture& reference)

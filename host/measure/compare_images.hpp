@@ -69,6 +69,8 @@ std::optional<SquaredErrors> measureErrors(const Picture& picture, const Picture
 // The picture's expected distance from the truth if it is unbiased, from its own variance. Nothing where no variance is known, where it
 // left float's range (float_range.hpp), and where a pixel is not finite.
 std::optional<SquaredErrors> estimateErrors(const Picture& picture);
+// The same for a robustRadiance that is known.
+std::optional<SquaredErrors> estimateErrors(const Picture& picture, const std::vector<glm::dvec3>& likely);
 // The expected error of a reference, over its finite pixels and relative to its own values: to be subtracted from comparisons with it.
 std::optional<SquaredErrors> estimateReferenceNoise(const Picture& reference);
 

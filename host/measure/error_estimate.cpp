@@ -72,12 +72,12 @@ std::vector<Part> partsOf(const Film& film, const std::function<double(std::size
 std::optional<ErrorEstimate> estimateError(const Film& film)
 {
     const Picture picture = makePicture(film);
-    const auto errors = estimateErrors(picture);
+    const std::vector<glm::dvec3> likely = robustRadiance(picture.width, picture.height, picture.radiance, picture.variance);
+    const auto errors = estimateErrors(picture, likely);
     if (!errors) {
         return std::nullopt;
     }
     const double epsilon = relativeEpsilon(picture);
-    const std::vector<glm::dvec3> likely = robustRadiance(film);
     const std::vector<Part> parts = partsOf(film, [](std::size_t, int) { return 1.0; });
     ErrorEstimate estimate;
     estimate.errors = *errors;

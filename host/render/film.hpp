@@ -53,6 +53,12 @@ std::string computeDigest(const Film& film);
 // Of the moments alone.
 std::string computePixelsDigest(const Film& film);
 
+// Both. They take a while.
+struct FilmDigests {
+    std::string film, pixels;
+};
+inline FilmDigests computeDigests(const Film& film) { return {computeDigest(film), computePixelsDigest(film)}; }
+
 // Splats are moments without what only camera rays know.
 PixelMoments widened(const SplatMoments& splat);
 SplatMoments narrowed(const PixelMoments& pixel);

@@ -263,7 +263,7 @@ void addDenoised(const DenoisedLayers& denoised, const Run& run, Image& image)
     addColors(denoised.error.subspan(run.begin, run.count), "denoisedError.", image);
 }
 
-Image headerOf(const Film& film)
+Image headerOf(const Film& film, const FilmDigests& digests)
 {
     Image image;
     image.width = film.width;
@@ -282,8 +282,8 @@ Image headerOf(const Film& film)
                         {"glim:device", film.device},
                         {"glim:kernels", film.identity.kernels},
                         {"glim:arithmetic", film.arithmetic},
-                        {"glim:digest", computeDigest(film)},
-                        {"glim:pixels", computePixelsDigest(film)},
+                        {"glim:digest", digests.film},
+                        {"glim:pixels", digests.pixels},
                         {kHeaderDigest, ""}};  // which ExrWriter computes
     if (!film.showsBackground) {
         image.attributes[kBackground] = "off";
@@ -298,7 +298,8 @@ struct Additions {
 };
 
 // In bands of rows: all planes at once would take as much memory as the film again, and more time.
-bool write(const fs::path& path, const Film& film, const Additions& additions, const std::function<bool()>& shouldContinue)
+std::optional<FilmDigests> write(
+    const fs::path& path, const Film& film, const Additions& additions, const std::function<bool()>& shouldContinue = [] { return true; })
 {
     const Checkpoint* checkpoint = additions.checkpoint;
     const char* folded = checkpoint == nullptr ? kNothing : placeOfFolded(film, *checkpoint);
@@ -313,7 +314,8 @@ bool write(const fs::path& path, const Film& film, const Additions& additions, c
             addDenoised(*additions.denoised, run, image);
         }
     };
-    Image header = headerOf(film);
+    const FilmDigests digests = computeDigests(film);
+    Image header = headerOf(film, digests);
     if (additions.denoised != nullptr) {
         header.attributes["glim:denoiser"] = additions.denoised->denoiser;
     }
@@ -327,14 +329,14 @@ bool write(const fs::path& path, const Film& film, const Additions& additions, c
     band.width = film.width;
     for (std::uint32_t first = 0; first < film.height; first += band.height) {
         if (!shouldContinue()) {
-            return false;
+            return std::nullopt;
         }
         band.height = std::min(kBandRows, film.height - first);
         addRows(band, first, band.height);
         writer.write(band);
     }
     writer.commit();
-    return true;
+    return digests;
 }
 
 template <class Value>
@@ -521,14 +523,11 @@ std::string sampleRangesText(const Film& film)
     return text.str();
 }
 
-void writeFilm(const fs::path& path, const Film& film)
-{
-    write(path, film, {}, [] { return true; });
-}
+FilmDigests writeFilm(const fs::path& path, const Film& film) { return write(path, film, {}).value(); }
 
-void writeFilm(const fs::path& path, const Film& film, const DenoisedLayers& denoised)
+FilmDigests writeFilm(const fs::path& path, const Film& film, const DenoisedLayers& denoised)
 {
-    write(path, film, {.denoised = &denoised}, [] { return true; });
+    return write(path, film, {.denoised = &denoised}).value();
 }
 
 std::optional<std::vector<glm::vec3>> readDenoised(const fs::path& path)
@@ -547,7 +546,8 @@ std::optional<std::vector<glm::vec3>> readDenoised(const fs::path& path)
     return radiance;
 }
 
-bool writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint, const std::function<bool()>& shouldContinue)
+std::optional<FilmDigests> writeFilm(const fs::path& path, const Film& film, const Checkpoint& checkpoint,
+                                     const std::function<bool()>& shouldContinue)
 {
     return write(path, film, {.checkpoint = &checkpoint}, shouldContinue);
 }

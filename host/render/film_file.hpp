@@ -30,20 +30,21 @@
 
 namespace glim {
 
-void writeFilm(const std::filesystem::path& path, const Film& film);
+// Returns the digests, which the file has.
+FilmDigests writeFilm(const std::filesystem::path& path, const Film& film);
 
 // What the file has besides the film.
 struct DenoisedLayers {
     std::span<const glm::vec3> radiance, error;
     std::string denoiser;
 };
-void writeFilm(const std::filesystem::path& path, const Film& film, const DenoisedLayers& denoised);
+FilmDigests writeFilm(const std::filesystem::path& path, const Film& film, const DenoisedLayers& denoised);
 // The denoised radiance that a film's file has besides, if it has.
 std::optional<std::vector<glm::vec3>> readDenoised(const std::filesystem::path& path);
 
-// A film and what a later render needs to go on from its finished blocks. Returns false if `shouldContinue`, asked now and then, ended it;
-// the file is then as it was.
-bool writeFilm(
+// A film and what a later render needs to go on from its finished blocks. Returns nothing if `shouldContinue`, asked now and then, ended
+// it; the file is then as it was.
+std::optional<FilmDigests> writeFilm(
     const std::filesystem::path& path, const Film& film, const Checkpoint& checkpoint,
     const std::function<bool()>& shouldContinue = [] { return true; });
 

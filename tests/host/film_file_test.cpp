@@ -33,7 +33,9 @@ TEST(FilmFile, ReadsBackEveryBit)
     film.seconds = 1.0 / 3.0;
     film.complete = false;
     film.showsBackground = false;
-    writeFilm(folder / "a.exr", film);
+    const FilmDigests digests = writeFilm(folder / "a.exr", film);
+    EXPECT_EQ(digests.film, computeDigest(film));
+    EXPECT_EQ(digests.pixels, computePixelsDigest(film));
     const Film back = readFilm(folder / "a.exr");
     EXPECT_EQ(back.width, film.width);
     EXPECT_EQ(back.height, film.height);

@@ -48,6 +48,23 @@ void expectText(const std::string& text, const char* pattern)
     EXPECT_TRUE(std::regex_search(text, std::regex(pattern))) << text << "lacks: " << pattern;
 }
 
+// Which the film's file has, or which are computed for the report alone.
+TEST(CommandLineTest, ReportsHaveTheFilmsDigestsWhateverIsWritten)
+{
+    const Workplace workplace;
+    const json written = workplace.render({"--spp", "2"}).second;
+    const Film film = readFilm(workplace.file("x.exr"));
+    EXPECT_EQ(written.at("digest"), computeDigest(film));
+    EXPECT_EQ(written.at("pixelsDigest"), computePixelsDigest(film));
+    const GlimRun run =
+        workplace.call({"render", sceneFile("cornell.gltf"), "-o", "x.png", "--size", "16x16", "--spp", "2", "--stats", "p.json"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const json drawn = json::parse(readFileBytes(workplace.file("p.json")));
+    for (const char* same : {"digest", "pixelsDigest", "estimate", "rmseOfMeanBound"}) {
+        EXPECT_EQ(drawn.at(same), written.at(same)) << same;
+    }
+}
+
 TEST(CommandLineTest, ReportsDescribeTheTree)
 {
     const Workplace workplace;
