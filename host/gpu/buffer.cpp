@@ -124,31 +124,24 @@ void Buffer::upload(std::span<const std::byte> bytes)
     }
 }
 
-void Buffer::read(std::uint64_t bytes, std::uint64_t element, const Look& look) const
+void Buffer::download(std::span<std::byte> bytes) const
 {
-    assert(bytes <= size_);
-    if (bytes == 0) {
+    assert(bytes.size() <= size_);
+    if (bytes.empty()) {
         return;
     }
     if (mapped_ != nullptr || hostCopy_) {
-        look(0, {mapped_ != nullptr ? mapped_ : hostCopy_->mapped(), bytes});
+        std::memcpy(bytes.data(), mapped_ != nullptr ? mapped_ : hostCopy_->mapped(), bytes.size());
         return;
     }
     const HostBuffer& staging = device_->reused().staging();
-    const std::uint64_t part = kStagingBytes / element * element;
-    for (std::uint64_t offset = 0; offset < bytes; offset += part) {
-        const std::uint64_t count = std::min(bytes - offset, part);
+    for (std::uint64_t offset = 0; offset < bytes.size(); offset += kStagingBytes) {
+        const std::uint64_t count = std::min<std::uint64_t>(bytes.size() - offset, kStagingBytes);
         Commands commands(*device_);
         commands.copy(handle_.get(), offset, staging.handle(), count);
         commands.submitAndWait();
-        look(offset, {staging.mapped(), count});
+        std::memcpy(bytes.data() + offset, staging.mapped(), count);
     }
-}
-
-void Buffer::download(std::span<std::byte> bytes) const
-{
-    read(bytes.size(), 1,
-         [&](std::uint64_t offset, std::span<const std::byte> part) { std::memcpy(bytes.data() + offset, part.data(), part.size()); });
 }
 
 }  // namespace glim

@@ -4,7 +4,6 @@
 #include "host/gpu/reused.hpp"
 
 #include <cstring>
-#include <functional>
 #include <span>
 #include <type_traits>
 
@@ -38,10 +37,6 @@ public:
 
     // Copies `bytes` to the start of the buffer. No kernel that uses the buffer may be running.
     void upload(std::span<const std::byte> bytes);
-    // Shows the first `bytes` of the buffer where the host sees them, in parts of whole elements of `element` bytes, and where each part
-    // begins.
-    using Look = std::function<void(std::uint64_t offset, std::span<const std::byte> part)>;
-    void read(std::uint64_t bytes, std::uint64_t element, const Look& look) const;
     // Copies the first bytes of the buffer to `bytes`.
     void download(std::span<std::byte> bytes) const;
 
@@ -72,16 +67,6 @@ std::vector<T> download(const Buffer& buffer, std::size_t count)
     std::vector<T> values(count);
     buffer.download(std::as_writable_bytes(std::span<T>(values)));
     return values;
-}
-
-// As Buffer::read, in elements.
-template <class T, class Look>
-void read(const Buffer& buffer, std::size_t count, Look&& look)
-{
-    static_assert(std::is_trivially_copyable_v<T>);
-    buffer.read(count * sizeof(T), sizeof(T), [&](std::uint64_t offset, std::span<const std::byte> part) {
-        look(offset / sizeof(T), std::span(reinterpret_cast<const T*>(part.data()), part.size() / sizeof(T)));
-    });
 }
 
 }  // namespace glim

@@ -5,6 +5,8 @@
 #include "host/render/parameters.hpp"
 #include "host/render/splats.hpp"
 
+#include <algorithm>
+
 namespace glim {
 
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints)
@@ -15,11 +17,12 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
                                    pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);
     // The film and what its error is estimated with; --adaptive neighbours has a second film. A checkpoint has a film, the last page and
     // the film that it shows, with --adaptive neighbours the second film too, and is copied once. Halves are two films, and two of their
-    // last page.
+    // last page. A tile has a copy of its page.
     const std::uint64_t second = isNeighbours(settings.adaptive) ? 1 : 0;
     const std::uint64_t films = 2 + second + (checkpoints ? 2 * (3 + second) : 0) + (settings.halves ? 4 : 0);
     const std::uint64_t onHost =
-        pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0));
+        pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0)) +
+        std::min(settings.tilePixels, settings.pixelCount()) * sizeof(PixelMoments);
     const auto refuse = [&](std::uint64_t needed, const MessagePart& owner, std::uint64_t there) {
         if (needed > there) {
             const std::uint64_t textures = imageBytes(prepared.flat);

@@ -19,6 +19,7 @@ FilmAccumulator::FilmAccumulator(RenderResources& resources, const RenderSetting
 void FilmAccumulator::makeTiles()
 {
     tiles_.clear();
+    snapshot_.emplace(resources_.device, std::min(settings_.tilePixels, settings_.pixelCount()) * sizeof(PixelMoments));
     const std::uint32_t end = settings_.firstPixel() + settings_.pixelCount();
     for (std::uint32_t first = settings_.firstPixel(); first < end; first += settings_.tilePixels) {
         tiles_.push_back(resources_.makeTile(first, std::min(settings_.tilePixels, end - first)));
@@ -27,10 +28,12 @@ void FilmAccumulator::makeTiles()
 
 void FilmAccumulator::restart(const RenderSettings& settings, Film film)
 {
+    finishFold();
     const glm::uvec2 before(settings_.width, settings_.height), size(settings.width, settings.height);
     settings_ = settings;
     if (size != before) {
         std::swap(tiles_, spare_);
+        std::swap(snapshot_, spareSnapshot_);
         if (size != std::exchange(spareSize_, before)) {
             makeTiles();
         }
@@ -89,15 +92,24 @@ std::vector<std::uint32_t> FilmAccumulator::testPixels(std::uint32_t samples)
     return chosen;
 }
 
-void FilmAccumulator::foldPages(std::initializer_list<Film*> films, const std::vector<std::unique_ptr<Tile>>& tiles)
+void FilmAccumulator::foldPages(const std::vector<Film*>& films, const std::vector<std::unique_ptr<Tile>>& tiles)
 {
     for (const auto& tile : tiles) {
         tracer_.closeBlocks(*tile);
-        tile->takePages([&](std::size_t first, std::span<const PixelMoments> pages) {
+        finishFold();  // the tile before this one, or the page before this one
+        const std::span<const PixelMoments> pages = tile->takePages(*snapshot_);
+        folding_ = std::async(std::launch::async, [films, pages, begin = tile->begin() - settings_.firstPixel()] {
             for (Film* film : films) {
-                foldPage(*film, tile->begin() - settings_.firstPixel() + first, pages);
+                foldPage(*film, begin, pages);
             }
         });
+    }
+}
+
+void FilmAccumulator::finishFold() const
+{
+    if (folding_.valid()) {
+        folding_.get();
     }
 }
 
@@ -131,6 +143,7 @@ Film FilmAccumulator::pageSoFar()
         copies.back()->copySamples(*tile, 0);
     }
     foldPages({&page}, copies);
+    finishFold();
     if (splats_) {
         SplatSums(*splats_).foldInto(page.splats);
     }
@@ -150,7 +163,7 @@ void FilmAccumulator::takeHalves(std::uint32_t sample)
 
 Film FilmAccumulator::sum()
 {
-    Film film = film_;
+    Film film = folded();
     const Film page = pageSoFar();
     foldPage(film, 0, page.pixels);
     foldSplats(film.splats, page.splats);
@@ -163,12 +176,13 @@ PixelMoments FilmAccumulator::sum(std::uint32_t pixel)
     const std::unique_ptr<Tile> copy = resources_.makeTile(pixel, 1);
     copy->copySamples(tile, pixel - tile.begin());
     tracer_.closeBlocks(*copy);
-    return foldMoments(film_.pixels[pixel], copy->readPages().front());
+    return foldMoments(folded().pixels[pixel], copy->readPages().front());
 }
 
 Film FilmAccumulator::takeFilm()
 {
     fold();
+    finishFold();
     return std::move(film_);
 }
 
@@ -177,13 +191,14 @@ std::vector<PixelMoments> FilmAccumulator::takePages()
     Film page;
     page.pixels.resize(settings_.pixelCount());
     foldPages({&page}, tiles_);
+    finishFold();
     return std::move(page.pixels);
 }
 
 Checkpoint FilmAccumulator::checkpoint() const
 {
     Checkpoint checkpoint;
-    checkpoint.film = film_;
+    checkpoint.film = folded();
     checkpoint.page.reserve(settings_.pixelCount());
     for (const auto& tile : tiles_) {
         const std::vector<PixelMoments> pages = tile->readPages();
@@ -206,6 +221,7 @@ Checkpoint FilmAccumulator::checkpoint() const
 
 void FilmAccumulator::resume(Checkpoint checkpoint)
 {
+    finishFold();
     const Film fresh = std::exchange(film_, std::move(checkpoint.film));
     film_.identity = fresh.identity;  // without what a film's file says of its camera
     film_.device += film_.device.find(fresh.device) == std::string::npos ? "; " + fresh.device : "";

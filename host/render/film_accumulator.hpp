@@ -5,6 +5,8 @@
 #include "host/render/film_halves.hpp"
 #include "host/render/pass_tracer.hpp"
 
+#include <future>
+
 namespace glim {
 
 class FilmAccumulator {
@@ -18,12 +20,20 @@ public:
     // The tiles on the device have what is not folded yet, folded() has the rest. The version changes whenever folded() does; it is 0
     // while nothing is folded, and unique over all accumulators.
     const std::vector<std::unique_ptr<Tile>>& tiles() const { return tiles_; }
-    const Film& folded() const { return film_; }
+    const Film& folded() const
+    {
+        finishFold();
+        return film_;
+    }
     std::uint64_t foldVersion() const { return foldVersion_; }
     // Null unless the settings ask for them; if they are late, until keepHalves() was called and the next page begins.
     const FilmHalves* halves() const { return halves_ ? &*halves_ : nullptr; }
     // Of --adaptive neighbours: the samples that all pixels share, at the end of their part of a round.
-    const Film& common() const { return common_; }
+    const Film& common() const
+    {
+        finishFold();
+        return common_;
+    }
     void addSplats(std::span<const Splat> splats, const LightPass& pass) { splats_->add(splats, pass.firstSample, pass.sampleCount); }
 
     void chooseAllPixels();
@@ -32,7 +42,8 @@ public:
     // Chooses those that the course's rule has not stopped after this many samples. Returns how many of each tile these are.
     std::vector<std::uint32_t> testPixels(std::uint32_t samples);
 
-    // Close the open blocks, which may be partial in adaptive renders and at the end, and fold all pages.
+    // Close the open blocks, which may be partial in adaptive renders and at the end, and fold all pages: in the background, while the
+    // device goes on.
     void fold();
     void foldCommon();
     // Of this picture, if the settings ask for halves that are late. Before there is half a block they lose no sample.
@@ -55,8 +66,9 @@ public:
 private:
     void makeTiles();
     void begin(Film film);
-    // Into each of the films.
-    void foldPages(std::initializer_list<Film*> films, const std::vector<std::unique_ptr<Tile>>& tiles);
+    // Into each of the films, which stay until finishFold() has returned.
+    void foldPages(const std::vector<Film*>& films, const std::vector<std::unique_ptr<Tile>>& tiles);
+    void finishFold() const;
     Film pageSoFar();
     void renewVersion();
 
@@ -65,13 +77,16 @@ private:
     RenderSettings settings_;
     std::optional<float> splatScale_;
     std::vector<std::unique_ptr<Tile>> tiles_;
+    std::optional<HostBuffer> snapshot_;        // of the pages of one tile
     std::vector<std::unique_ptr<Tile>> spare_;  // tiles of the previous size, to which a window soon returns
+    std::optional<HostBuffer> spareSnapshot_;
     glm::uvec2 spareSize_{0, 0};
     std::optional<SplatSums> splats_;
     Film film_, common_;
     std::optional<FilmHalves> halves_;
     bool keepsHalves_ = false;
     std::uint64_t foldVersion_ = 0;
+    mutable std::future<void> folding_;  // from the snapshot into films
 };
 
 }  // namespace glim

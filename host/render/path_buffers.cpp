@@ -216,10 +216,13 @@ void Tile::fillWithZero(std::initializer_list<const Buffer*> buffers)
     commands.submitAndWait();
 }
 
-void Tile::takePages(const std::function<void(std::size_t, std::span<const PixelMoments>)>& look)
+std::span<const PixelMoments> Tile::takePages(const HostBuffer& target)
 {
-    read<PixelMoments>(pages_, count_, look);
-    fillWithZero({&pages_});
+    Commands commands(device_);
+    commands.copy(pages_.handle(), 0, target.handle(), count_ * sizeof(PixelMoments));
+    commands.fillWithZero(pages_);
+    commands.submitAndWait();
+    return {reinterpret_cast<const PixelMoments*>(target.mapped()), count_};
 }
 
 void Tile::chooseAll()

@@ -7,7 +7,6 @@
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
 
-#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <vector>
@@ -88,8 +87,8 @@ public:
     // One per pixel if the render's settings ask for suspects.
     const Buffer& brightest() const { return brightest_; }
 
-    // Shows the pages, in parts and with the first pixel of each, and empties them.
-    void takePages(const std::function<void(std::size_t first, std::span<const PixelMoments> pages)>& look);
+    // Moves the pages to `target`, and empties them.
+    std::span<const PixelMoments> takePages(const HostBuffer& target);
     std::vector<PixelMoments> readPages() const { return download<PixelMoments>(pages_, count_); }
     void writePages(std::span<const PixelMoments> pages) { upload(pages_, pages); }
     // Empties everything; all pixels are chosen.

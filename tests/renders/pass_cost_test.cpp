@@ -78,40 +78,26 @@ TEST_P(PassCostTest, ADeviceWithMemoryOfItsOwnCopiesFourSmallBuffersBeforeEachWa
 INSTANTIATE_TEST_SUITE_P(Schedules, PassCostTest, testing::Values(Schedule::Wavefront, Schedule::Persistent),
                          [](const testing::TestParamInfo<Schedule>& schedule) { return std::string(getName(schedule.param)); });
 
-// What the page of a picture without samples costs: it ends the blocks, reads pages and empties them. Memory is allocated for none of
-// this.
-VulkanCalls costOfFold(Device& device, std::uint32_t size)
-{
-    const Scene scene = mixedScene();
-    const FlatScene flat = flattened(scene);
-    const RenderSettings settings = squareSettings(size, 1);
-    RenderResources resources(device, flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
-    FilmAccumulator films(resources, settings, emptyFilm(settings), std::nullopt);
-    films.fold();
-    const VulkanCalls before = vulkanCalls();
-    films.fold();
-    return vulkanCalls() - before;
-}
-
-TEST(FoldCostTest, WhereMemoryIsSharedPagesAreFoldedWhereTheyLie)
-{
-    const VulkanCalls cost = costOfFold(testDevice(), 640);
-    EXPECT_EQ(cost.objects, 0U);
-    if (isSoftware(testDevice().description().deviceClass)) {
-        EXPECT_EQ(cost.waits, 2U);
-        EXPECT_EQ(cost.copies, 0U);
-    }
-}
-
-TEST(FoldCostTest, ADeviceWithMemoryOfItsOwnCopiesPagesOnce)
+// What the page of a picture without samples costs the device: it ends the blocks, and moves the pages to the host. It does not wait for
+// the host to fold them.
+TEST(FoldCostTest, IsTwoWaitsAndOneCopyOfATile)
 {
     const VulkanInstance instance;
-    Device device(instance, std::nullopt, VK_NULL_HANDLE, DeviceClass::DiscreteGpu);
-    for (const auto& [size, parts] : {std::pair(16U, 1U), std::pair(640U, 2U)}) {
-        const VulkanCalls cost = costOfFold(device, size);
+    for (const std::optional<DeviceClass> as : {std::optional<DeviceClass>(), std::optional(DeviceClass::DiscreteGpu)}) {
+        Device device(instance, std::nullopt, VK_NULL_HANDLE, as);
+        const Scene scene = mixedScene();
+        const FlatScene flat = flattened(scene);
+        RenderSettings settings = squareSettings(32, 1);
+        settings.tilePixels = 32 * 16;
+        RenderResources resources(device, flat, flattenCamera(scene.cameras.front(), 1.0F), settings);
+        FilmAccumulator films(resources, settings, emptyFilm(settings), std::nullopt);
+        films.fold();
+        const VulkanCalls before = vulkanCalls();
+        films.fold();
+        const VulkanCalls cost = vulkanCalls() - before;
         EXPECT_EQ(cost.objects, 0U);
-        EXPECT_EQ(cost.waits, 2U + parts);
-        EXPECT_EQ(cost.copies, parts + 4 * cost.submits) << "and the four small buffers";
+        EXPECT_EQ(cost.waits, 2U * 2);
+        EXPECT_EQ(cost.copies, 2U + (as ? 4 * cost.submits : 0)) << "and, of a device with memory of its own, the four small buffers";
     }
 }
 

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <chrono>
 #include <cstdio>
 
@@ -115,46 +114,6 @@ TEST_F(StagingTest, FillsAndCopies)
     EXPECT_TRUE(download<std::byte>(c, size) == last);
 }
 
-// Pages of pixels have an odd number of words.
-TEST_F(StagingTest, AReadShowsEachElementOnceAndWhole)
-{
-    using Element = std::array<std::byte, 52>;
-    for (const std::size_t count : {std::size_t{1}, kStagingBytes / sizeof(Element), 2 * kStagingBytes / sizeof(Element) + 3}) {
-        Buffer buffer = storage(count * sizeof(Element));
-        const Bytes sent = makeBytes(buffer.size(), count);
-        buffer.upload(sent);
-        Bytes seen;
-        read<Element>(buffer, count, [&](std::size_t first, std::span<const Element> part) {
-            EXPECT_EQ(first * sizeof(Element), seen.size());
-            const auto bytes = std::as_bytes(part);
-            seen.insert(seen.end(), bytes.begin(), bytes.end());
-        });
-        EXPECT_TRUE(seen == sent) << count;
-    }
-}
-
-// The device runs what was started before what comes later, and all of it even if the later part is given up.
-TEST_F(StagingTest, WhatIsStartedRunsFirst)
-{
-    Buffer a = storage(64), b = storage(64), c = storage(64);
-    a.upload(makeBytes(64, 1));
-    for (const bool isGivenUp : {false, true, false}) {
-        b.upload(makeBytes(64, 2));
-        c.upload(makeBytes(64, 3));
-        {
-            Commands commands(device);
-            commands.copy(a.handle(), 0, b.handle(), 64);
-            commands.start();
-            commands.copy(b.handle(), 0, c.handle(), 64);
-            if (!isGivenUp) {
-                commands.submitAndWait();
-            }
-        }
-        EXPECT_TRUE(download<std::byte>(b, 64) == makeBytes(64, 1));
-        EXPECT_TRUE(download<std::byte>(c, 64) == makeBytes(64, isGivenUp ? 3 : 1));
-    }
-}
-
 // What tools/gpu_check reports.
 TEST_F(StagingTest, CopiesInGigabytesPerSecond)
 {
@@ -204,18 +163,20 @@ TEST_F(StagingTest, ARenderHasTheBitsOfASoftwareDevice)
     }
 }
 
-// Its pages have two parts, each of which several threads fold.
-TEST_F(StagingTest, ALargePictureHasTheBitsOfASoftwareDevice)
+// Each tile's page is folded while the device traces the next one.
+TEST_F(StagingTest, PagesOfSeveralTilesHaveTheBitsOfASoftwareDevice)
 {
     const Scene scene = mixedScene();
-    const RenderSettings settings = squareSettings(640, 1);
-    ASSERT_GT(settings.pixelCount() * sizeof(PixelMoments), kStagingBytes);
+    RenderSettings settings = squareSettings(8, 2 * kPageSamples + 1);
+    settings.tilePixels = 24;
     const auto render = [&](Device& on) {
         return Renderer(on, flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings).render([](const RenderProgress&) {
             return true;
         });
     };
-    EXPECT_TRUE(sameBits(render(device), render(testDevice())));
+    const Film film = render(device);
+    settings.tilePixels = 64;
+    EXPECT_TRUE(sameBits(film, render(testDevice())));
 }
 
 }  // namespace
