@@ -116,6 +116,19 @@ class GpuCheck(unittest.TestCase):
         self.assertEqual(results["wrong"], ["light_directional differs from its golden picture by more than noise"])
         self.assertIn("| light_directional | differs |", table)
 
+    def test_other_bits_are_the_exit_code(self):
+        bundle = self.copy_of_bundle()
+        films = os.path.join(bundle, "films")
+        for name in os.listdir(films):
+            if name not in ("light_point.exr", "furnace.exr"):
+                os.remove(os.path.join(films, name))
+        code, results, table = self.check(bundle, "--steps", "bits", "--patience", "5")
+        self.assertEqual((code, results["wrong"]), (0, []), table)
+        self.assertIn("2 of 2 films have the bundle's bits", table)
+        shutil.copy(os.path.join(films, "light_point.exr"), os.path.join(films, "furnace.exr"))
+        code, results, table = self.check(bundle, "--steps", "bits", "--patience", "5")
+        self.assertEqual((code, results["wrong"]), (1, ["furnace has other bits than the bundle's film"]), table)
+
     def test_what_does_not_end_is_ended_and_the_next_step_runs(self):
         bundle = self.copy_of_bundle()
         self.change(bundle, kernelSuites=["Test%d" % i for i in range(50)])

@@ -2,7 +2,8 @@
 
 bundle makes a folder of at most 64 MiB with all that glim needs. run tells what the device of the machine makes of it, in at most eight
 minutes on a GPU: precision and tests of kernels, bits, golden pictures, speed. It writes result.json and table.md after each step. Its exit
-code is 1 if a picture is wrong, 2 if there is no bundle or an option is wrong, 3 if there is no device, and else 0, whatever else fails."""
+code is 1 if a picture is wrong or a film has other bits than Mesa's, 2 if there is no bundle or an option is wrong, 3 if there is no
+device, and else 0, whatever else fails."""
 
 import argparse
 import json
@@ -28,7 +29,7 @@ def parse_arguments():
     run.add_argument("--device", help="index or part of a name from `glim devices` [the first usable one]")
     run.add_argument("--driver", metavar="ICD.json", help="the Vulkan driver that this file describes")
     run.add_argument("--path-capacity", type=int, metavar="N",
-                     help="paths in flight, for devices with small buffers [glim's; three for speed]")
+                     help="paths in flight, for devices with small buffers [glim's]")
     run.add_argument("--patience", type=float, default=1.0, metavar="F",
                      help="multiplies the time limit of each step, for slow devices [1]")
     run.add_argument("--steps", metavar="A,B", help="only these [all of device,kernels,bits,golden,speed,copies,validation]")

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import zipfile
 
-from places import BITS_SCENES, BITS_SIZE, BITS_SPP, GOLDEN_SIZE, ROOT, CheckError, render_words
+from places import BITS_SIZE, BITS_SPP, GOLDEN_SIZE, ROOT, CheckError, render_words
 
 MOST_BYTES = 64 << 20
 LAYER = "VK_LAYER_KHRONOS_validation"
@@ -118,11 +118,16 @@ def golden_pictures():
     return [{"scene": scene, "blocks": blocks == "true", "samples": int(samples or usual)} for scene, blocks, samples in found]
 
 
-def copy_data(folder, build, golden):
+def all_scenes():
+    """Those of the repository, whose films are compared bit by bit."""
+    return sorted(name[:-5] for name in os.listdir(os.path.join(ROOT, "scenes")) if name.endswith(".gltf"))
+
+
+def copy_data(folder, build):
     """Scenes with their images, golden pictures, and what the kernels' tests read."""
     scenes = os.path.join(folder, "scenes")
     os.makedirs(scenes)
-    for name in {*BITS_SCENES, *(picture["scene"] for picture in golden), "showcase"}:
+    for name in all_scenes():
         shutil.copy(os.path.join(ROOT, "scenes", name + ".gltf"), scenes)
     for name in os.listdir(os.path.join(ROOT, "scenes")):
         if name.endswith(".hdr"):
@@ -145,7 +150,7 @@ def draw_films(folder, glim):
     """The films that other devices are compared with, by the software driver here."""
     films = os.path.join(folder, "films")
     os.makedirs(films)
-    for scene in BITS_SCENES:
+    for scene in all_scenes():
         path, film = os.path.join(folder, "scenes", scene + ".gltf"), os.path.join(films, scene + ".exr")
         words = render_words(glim, path, film, BITS_SIZE, BITS_SIZE)
         run(*words, "--spp", str(BITS_SPP), "--device", "llvmpipe")
@@ -177,7 +182,7 @@ def fill_bundle(folder, build, say):
     glibc = newest_glibc(path for kind in ("bin", "lib") for path in files_in(os.path.join(programs, kind)))
     pack(programs, os.path.join(folder, "programs.zip"))
     golden = golden_pictures()
-    copy_data(folder, build, golden)
+    copy_data(folder, build)
     here = os.path.dirname(os.path.abspath(__file__))
     shutil.copytree(here, os.path.join(folder, "gpu_check"), ignore=shutil.ignore_patterns("__pycache__"))
     say("drawing the films to compare with")
