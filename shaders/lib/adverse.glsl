@@ -51,7 +51,7 @@ float adverseMax(const float a, const float b, const uint seed)
 // What an integer cannot be becomes any.
 int adverseInt(const float x, const uint seed)
 {
-    return x > -2147483648.0 && x < 2147483648.0 ? int(x) : int(adverseHash(floatBitsToUint(x), seed));
+    return x >= -2147483648.0 && x < 2147483648.0 ? int(x) : int(adverseHash(floatBitsToUint(x), seed));
 }
 
 uint adverseUint(const float x, const uint seed)
