@@ -27,7 +27,7 @@ void weigh(ivec2 place, int i, vec2 distance)
         float weight = patchWeight(distance.x / distance.y);
         uint pixel = pixelAt(place);
         WeightedSum sum = sums[pixel];
-        sums[pixel] = WeightedSum(sum.radiance + noisy[pixelAt(other)].mean * weight, sum.weight + weight);
+        sums[pixel] = WeightedSum(sum.radiance + weightedRadiance(noisy[pixelAt(other)].mean, weight), sum.weight + weight);
     }
 }
 

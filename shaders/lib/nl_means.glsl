@@ -27,4 +27,12 @@ float patchWeight(float meanDistance)
     return portableExp(-max(meanDistance, 0.0));
 }
 
+// Without what is about as small as denormal numbers, which devices may flush: it would be all the radiance of a black pixel beside bright
+// ones.
+vec3 weightedRadiance(vec3 mean, float weight)
+{
+    vec3 weighted = mean * weight;
+    return mix(vec3(0.0), weighted, greaterThan(abs(weighted), vec3(1e-37)));
+}
+
 #endif
