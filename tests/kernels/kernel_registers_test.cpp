@@ -1,5 +1,5 @@
-// Compiles kernels one after the other, with both traversal stacks. A driver that prints registers and spills then prints them behind the
-// kernel's name (tests/bench/GPU.md).
+// Compiles kernels one after the other, those that traverse with both stacks. A driver that prints registers and spills then prints them
+// behind the kernel's name (tests/bench/GPU.md).
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/kernel_set.hpp"
 #include "host/render/path_buffers.hpp"
@@ -25,14 +25,17 @@ TEST(KernelRegistersTest, EachKernelIsCompiledAlone)
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
     Specialization constants = specialize(flat, camera, {}, testDevice().description());
     constants[kSpecStackLevels] = 8;  // a large scene's
-    for (const bool shared : {false, true}) {
+    const auto compile = [&](const EmbeddedShader& shader, bool shared) {
         constants[kSpecSharedStack] = shared;
-        for (const EmbeddedShader* shader :
-             {&kernels::generate_rays, &kernels::size_dispatch, &kernels::trace_closest, &kernels::shade_surface, &kernels::trace_shadow,
-              &kernels::accumulate, &kernels::trace_light_paths, &kernels::trace_paths}) {
-            std::cerr << "kernel " << shader->name << (shared ? ", shared stack\n" : "\n");
-            EXPECT_NE(Kernel(layout, *shader, constants).pipeline(), VkPipeline{});
-        }
+        std::cerr << "kernel " << shader.name << (shared ? ", shared stack\n" : "\n");
+        EXPECT_NE(Kernel(layout, shader, constants).pipeline(), VkPipeline{});
+    };
+    for (const EmbeddedShader& shader : {kernels::generate_rays, kernels::size_dispatch, kernels::shade_surface, kernels::accumulate}) {
+        compile(shader, false);
+    }
+    for (const EmbeddedShader& shader : {kernels::trace_closest, kernels::trace_shadow, kernels::trace_light_paths, kernels::trace_paths}) {
+        compile(shader, false);
+        compile(shader, true);
     }
 }
 

@@ -53,15 +53,28 @@ void addFailures(const std::string& file, const Report& report, std::uint32_t th
     EXPECT_NE(report.sentinel, kSentinel) << file << ": never ran";
 }
 
+KernelLayout makeLayout()
+{
+    std::vector<BindingSlot> slots = kernelSlots();
+    for (const std::uint32_t binding : {kBindCases, kBindReport, kBindResults}) {
+        slots.push_back({binding, BufferKind::Storage});
+    }
+    return {testDevice(), slots, sizeof(CoursePass)};
+}
+
+// Kept until the process ends: tests run the same kernel with many cases, and drivers take seconds to compile it.
+const Kernel& compiled(const EmbeddedShader& shader, const Specialization& specialization)
+{
+    static const KernelLayout layout = makeLayout();
+    static std::map<std::pair<std::string, Specialization>, Kernel> kernels;
+    return kernels.try_emplace({shader.name, specialization}, layout, shader, specialization).first->second;
+}
+
 }  // namespace
 
 void KernelTest::run()
 {
     Device& device = testDevice();
-    std::vector<BindingSlot> slots = kernelSlots();
-    for (const std::uint32_t binding : {kBindCases, kBindReport, kBindResults}) {
-        slots.push_back({binding, BufferKind::Storage});
-    }
     Buffer reportBuffer(device, "report", BufferKind::Storage, sizeof(Report));
     Report report{};
     report.sentinel = kSentinel;
@@ -87,9 +100,8 @@ void KernelTest::run()
     Buffer course(device, "test's parameters of the course", BufferKind::Storage, sizeof(CourseParameters));
     upload(course, std::span<const CourseParameters>(&course_, 1));
     bound[kBindCourseParameters] = &course;
-    const KernelLayout layout(device, slots, sizeof(CoursePass));
-    const Kernel kernel(layout, shader_, specialization_);
-    const Bindings bindings(layout, bound);
+    const Kernel& kernel = compiled(shader_, specialization_);
+    const Bindings bindings(kernel.layout(), bound);
     const std::uint32_t groups = (push_.pass.pixelCount + kWorkgroup - 1) / kWorkgroup;
     Commands commands(device);
     commands.dispatch(kernel, bindings, std::as_bytes(std::span<const CoursePass, 1>(&push_, 1)), groups);
