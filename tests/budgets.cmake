@@ -1,6 +1,7 @@
 # The tests that tools/test leaves to tools/test --ci: names as gtest has them, with * for any characters. What they look at is looked
 # at by default as well, by unit tests, by fewer cases of the same kind, or with fewer samples; each group says by what.
-# list_suites.cmake refuses names that no test has. What else is left to tools/test --ci are tests on a second driver (second_driver.cmake).
+# list_suites.cmake refuses names that no test has. What else is left to tools/test --ci are tests on a second driver (second_driver.cmake)
+# and under adverse arithmetic (adverse.cmake).
 set(onlyInCi
     # Long pictures in which two estimators, or an estimator and an answer on paper, agree. By default: the kernels' tests of each lobe,
     # light and density, one or two cases of each kind, and the golden pictures of four scenes.

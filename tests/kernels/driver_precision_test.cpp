@@ -51,6 +51,9 @@ void count(Errors& worst, const Case& c, const Result& r)
 
 TEST(DriverPrecisionTest, H41PrecisionIsWhatVulkanRequires)
 {
+    if (testDevice().arithmetic().adverse) {
+        GTEST_SKIP() << "adverse arithmetic adds as much to the driver's own errors as Vulkan allows in all";
+    }
     Random random(41);
     std::vector<Case> cases(hardTrials(200000));
     for (Case& c : cases) {
