@@ -32,7 +32,7 @@ float portableExp2(float x)
     p = p * f + 0.5;
     p = p * f + 1.0;
     p = p * f + 1.0;
-    return whole < -126.0 ? 0.0 : p * uintBitsToFloat(uint(int(whole) + 127) << 23u);
+    return x < -126.0 ? 0.0 : p * uintBitsToFloat(uint(int(whole) + 127) << 23u);
 }
 
 // Off by 2e-7 (1 + |x|) of its size.

@@ -28,6 +28,7 @@ void main()
         EXPECT_EQUAL(portablePow(0.0, abs(c.y) + 1e-3), 0.0);
         EXPECT_EQUAL(portableExp(0.0), 1.0);
         EXPECT_EQUAL(portableExp(-1e30), 0.0);
+        EXPECT_TRUE(floatBitsToUint(portableExp2(-126.25)) == 0u);  // not a denormal number
         EXPECT_TRUE(portableExp(1e30) > 1e38 && portableExp(1e30) < 3.4e38);
         EXPECT_EQUAL(portableAtan2(0.0, 0.0), 0.0);
         EXPECT_EQUAL(portableAtan2(0.0, c.x), 0.0);
