@@ -44,6 +44,23 @@ TEST(UniqueResults, OfAllKernelsThatMakePictures)
     EXPECT_GT(quotients, 300U);
 }
 
+// An exact quotient for each component would take a GPU several times as long as one reciprocal.
+TEST(UniqueResults, NoVectorIsDividedByANumber)
+{
+    std::size_t quotients = 0;
+    for (const EmbeddedShader& shader : filmKernels()) {
+        std::set<Id> splats;
+        for (const Instruction& i : Module(shader.words()).functions) {
+            if (i.opcode() == kOpCompositeConstruct && std::set<Id>(i.words.begin() + 3, i.words.end()).size() == 1) {
+                splats.insert(i.result);
+            }
+            quotients += i.opcode() == kOpFDiv;
+            EXPECT_FALSE(i.opcode() == kOpFDiv && splats.contains(i.words[4])) << describe(shader, i);
+        }
+    }
+    EXPECT_GT(quotients, 300U);
+}
+
 // With exact arithmetic the only native quotients and roots are the approximations within lib/exact.glsl.
 TEST(UniqueResults, OfQuotientsAndRoots)
 {
