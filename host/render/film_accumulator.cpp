@@ -52,7 +52,8 @@ void FilmAccumulator::begin(Film film)
     halves_.reset();
     keepsHalves_ = settings_.halves && !settings_.halvesLate;
     if (splatScale_) {
-        splats_.emplace(settings_.pixelCount(), *splatScale_);
+        splats_.reset();  // so that no two are on the device
+        splats_.emplace(resources_.makeSplatBuffer(settings_), settings_.pixelCount(), *splatScale_);
     }
     foldVersion_ = 0;
 }
@@ -145,7 +146,7 @@ Film FilmAccumulator::pageSoFar()
     foldPages({&page}, copies);
     finishFold();
     if (splats_) {
-        SplatSums(*splats_).foldInto(page.splats);
+        page.splats = splats_->pageSoFar();
     }
     return page;
 }

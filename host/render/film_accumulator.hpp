@@ -34,7 +34,9 @@ public:
         finishFold();
         return common_;
     }
-    void addSplats(std::span<const Splat> splats, const LightPass& pass) { splats_->add(splats, pass.firstSample, pass.sampleCount); }
+    // Of renders that trace light paths: where a pass adds its splats, and that it has.
+    const SplatBuffer& splats() const { return splats_->block(); }
+    void addSplats(const LightPass& pass) { splats_->add(pass.firstSample, pass.sampleCount); }
 
     void chooseAllPixels();
     // In ascending order.

@@ -63,6 +63,7 @@ std::vector<EmbeddedShader> filmKernels()
             kernels::shade_surface,
             kernels::trace_shadow,
             kernels::trace_light_paths,
+            kernels::add_splats,
             kernels::show_aov,
             kernels::course_trace_closest,
             kernels::course_sample_lights,

@@ -100,6 +100,7 @@ KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const F
     }
     if (tracesLight(scene, settings)) {
         compile(traceLightPaths, kernels::trace_light_paths, production);
+        compile(addSplats, kernels::add_splats, production);
     }
     compile(generateRays, kernels::generate_rays, production);
     compile(accumulate, kernels::accumulate, production);
@@ -120,7 +121,7 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel :
-         {&sizeDispatch, &generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &accumulate, &showAov,
+         {&sizeDispatch, &generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &addSplats, &accumulate, &showAov,
           &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
           &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {

@@ -38,7 +38,7 @@ struct KernelSet {
     std::optional<Kernel> generateRays, sizeDispatch, accumulate;
     std::optional<Kernel> traceClosest, shadeSurface, traceShadow;  // of the wavefront
     std::optional<Kernel> tracePaths;                               // of the persistent schedule
-    std::optional<Kernel> traceLightPaths;                          // of caustics
+    std::optional<Kernel> traceLightPaths, addSplats;               // of caustics
     std::optional<Kernel> showAov;                                  // of AOVs other than radiance
     CourseKernels course;
 };

@@ -4,34 +4,26 @@
 
 namespace glim {
 
-void LightPasses::begin(const RenderResources& resources, const RenderSettings& settings)
+std::optional<PassSeconds> LightPasses::trace(PassTracer& tracer, const SplatBuffer& splats, const LightPass& pass,
+                                              const std::function<bool()>& shouldContinue)
 {
-    settings_ = settings;
-    splats_ = resources.makeSplatBuffer(SplatBuffer::countFor(settings));
-}
-
-std::optional<LightPasses::Traced> LightPasses::trace(PassTracer& tracer, const LightPass& pass,
-                                                      const std::function<bool()>& shouldContinue)
-{
-    const std::uint32_t all = pass.sampleCount * lightPathCount(settings_.width, settings_.height), pixels = settings_.pixelCount();
-    Traced traced;
-    for (std::uint32_t pixel = 0; pixel < pixels; pixel += splats_->count()) {
-        splats_->clear();
+    const std::uint32_t all = pass.sampleCount * lightPathCount(settings_.width, settings_.height);
+    PassSeconds sum{0.0, 0.0};
+    for (const auto& band : splats.bands()) {
         for (std::uint32_t first = 0; first < all;) {
             const std::uint32_t count = std::min(all - first, size_.paths());
-            const auto seconds =
-                tracer.traceLight(*splats_, settings_.firstPixel() + pixel, pass.firstSample, first, count, shouldContinue);
+            const auto seconds = tracer.traceLight(*band, pass.firstSample, first, count, shouldContinue);
             if (!seconds) {
+                splats.emptyPass();
                 return std::nullopt;
             }
-            traced.seconds = {std::max(traced.seconds.longest, seconds->longest), traced.seconds.total + seconds->total};
+            sum = {std::max(sum.longest, seconds->longest), sum.total + seconds->total};
             size_.learn(count, *seconds);
             first += count;
         }
-        const std::vector<Splat> band = splats_->read(std::min(splats_->count(), pixels - pixel));
-        traced.splats.insert(traced.splats.end(), band.begin(), band.end());
     }
-    return traced;
+    tracer.addSplats(splats);
+    return sum;
 }
 
 }  // namespace glim

@@ -14,19 +14,16 @@ public:
     {}
 
     // Starts a picture.
-    void begin(const RenderResources& resources, const RenderSettings& settings);
+    void begin(const RenderSettings& settings) { settings_ = settings; }
     std::uint32_t paths() const { return size_.paths(); }
-    // The light that a pass brings to each pixel of the film, and the time that it took; nothing if `shouldContinue` ended it.
-    struct Traced {
-        std::vector<Splat> splats;
-        PassSeconds seconds{0.0, 0.0};
-    };
-    std::optional<Traced> trace(PassTracer& tracer, const LightPass& pass, const std::function<bool()>& shouldContinue);
+    // Adds the light that a pass brings to the block of `splats`. Returns the time that it took; nothing if `shouldContinue` ended it, and
+    // then nothing is added.
+    std::optional<PassSeconds> trace(PassTracer& tracer, const SplatBuffer& splats, const LightPass& pass,
+                                     const std::function<bool()>& shouldContinue);
 
 private:
     PassSize size_;
     RenderSettings settings_;
-    std::unique_ptr<SplatBuffer> splats_;
 };
 
 }  // namespace glim

@@ -13,7 +13,8 @@
 // Nearly always one dispatch of trace_paths suffices: its threads put a path aside only once they have taken as many steps as a dispatch
 // may take. No path waits for others, nor for memory between its steps.
 //
-// Caustics: trace_light_paths, and again after size_dispatch for paths that were too long for one dispatch, for each sample of the picture.
+// Caustics: trace_light_paths, and again after size_dispatch for paths that were too long for one dispatch, for each sample of the picture;
+// then add_splats.
 //
 // AOVs insert show_aov before accumulate. The course's estimators have bounces of their own (course.hpp).
 #include "host/render/pass_tracer.hpp"
@@ -124,11 +125,11 @@ void PassTracer::recordRound(Recording& recording, const Bindings& bindings, con
     }
 }
 
-std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std::uint32_t pixel, std::uint32_t firstSample,
-                                                  std::uint32_t first, std::uint32_t count, const std::function<bool()>& shouldContinue)
+std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer::Band& band, std::uint32_t firstSample, std::uint32_t first,
+                                                  std::uint32_t count, const std::function<bool()>& shouldContinue)
 {
     Pass pass{};
-    pass.tileBegin = pixel;
+    pass.tileBegin = band.begin();
     pass.firstPixel = first;
     pass.pixelCount = count;
     pass.firstSample = firstSample;
@@ -136,11 +137,11 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std
     Recording recording(resources_.device, resources_.statistics, portion(), shouldContinue);
     const std::uint32_t share = resources_.settings.workgroup * rulesOf(resources_.device.description().deviceClass).pathsPerThread;
     // Fills the queue that the next dispatch reads, as generate_rays does.
-    recording.dispatch(*kernels().traceLightPaths, splats.bindings(1), pass, (count + share - 1) / share);
+    recording.dispatch(*kernels().traceLightPaths, band.bindings(1), pass, (count + share - 1) / share);
     pass.bounce = 1;
     bool alive = true;
     for (std::uint32_t parity = 0; alive; parity = 1 - parity) {
-        const Bindings& bindings = splats.bindings(parity);
+        const Bindings& bindings = band.bindings(parity);
         resources_.recordSize(recording, bindings, pass, kSizesShares);
         recording.finish();
         alive = !recording.isStopped() && readSizes().closest > 0;
@@ -154,6 +155,17 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer& splats, std
         return std::nullopt;
     }
     return PassSeconds{recording.longest(), recording.total()};
+}
+
+void PassTracer::addSplats(const SplatBuffer& splats)
+{
+    Recording recording(resources_.device, resources_.statistics);
+    for (const auto& band : splats.bands()) {
+        Pass pass{};
+        pass.pixelCount = band->count();
+        recording.dispatch(*kernels().addSplats, band->bindings(0), pass, resources_.countGroups(pass.pixelCount));
+    }
+    recording.finish();
 }
 
 void PassTracer::closeBlocks(const Tile& tile)

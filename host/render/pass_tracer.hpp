@@ -18,9 +18,11 @@ public:
     // The same without adding them, by a recording that may watch the kernels.
     void tracePaths(Recording& recording, const Tile& tile, const Pass& pass);
     // Traces `count` light paths from number `first` on, counted from the first of sample `firstSample`, and adds what they bring to the
-    // pixels from `pixel` on to `splats`. Returns nothing if `shouldContinue` ended it; what is in `splats` is then of no use.
-    std::optional<PassSeconds> traceLight(const SplatBuffer& splats, std::uint32_t pixel, std::uint32_t firstSample, std::uint32_t first,
+    // band's pixels to the splats of its pass. Returns nothing if `shouldContinue` ended it; these are then of no use.
+    std::optional<PassSeconds> traceLight(const SplatBuffer::Band& band, std::uint32_t firstSample, std::uint32_t first,
                                           std::uint32_t count, const std::function<bool()>& shouldContinue);
+    // Moves the splats of the pass to the block.
+    void addSplats(const SplatBuffer& splats);
     // Folds the open blocks of all pixels, chosen or not, into their pages.
     void closeBlocks(const Tile& tile);
     // Chooses the pixels that have `samples` samples and still need some. Returns how many these are.

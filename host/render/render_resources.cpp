@@ -88,9 +88,9 @@ std::unique_ptr<Tile> RenderResources::makeTile(std::uint32_t begin, std::uint32
     return std::make_unique<Tile>(device, compiled->layout, constants(), shared->paths, begin, count, settings);
 }
 
-std::unique_ptr<SplatBuffer> RenderResources::makeSplatBuffer(std::uint32_t count) const
+std::unique_ptr<SplatBuffer> RenderResources::makeSplatBuffer(const RenderSettings& of) const
 {
-    return std::make_unique<SplatBuffer>(device, compiled->layout, constants(), shared->paths, count);
+    return std::make_unique<SplatBuffer>(device, compiled->layout, constants(), shared->paths, of);
 }
 
 std::shared_ptr<const CompiledKernels> RenderResources::compile(const FlatScene& scene, const FlatCamera& camera)
@@ -108,14 +108,16 @@ void RenderResources::runOnce()
 {
     const auto start = Clock::now();
     const std::unique_ptr<Tile> tile = makeTile(0, 1);
-    const std::unique_ptr<SplatBuffer> splats = makeSplatBuffer(1);
+    RenderSettings onePixel;
+    onePixel.width = onePixel.height = 1;
+    const std::unique_ptr<SplatBuffer> splats = makeSplatBuffer(onePixel);
     CoursePass nothing{tile->pass(), {}};
     nothing.pass.bounce = 1;
     nothing.pass.sizes = kSizesPaths | kSizesShadow;
     Commands commands(device);
     for (const Kernel* kernel : kernels().all()) {
-        const bool light = kernels().traceLightPaths && kernel == &*kernels().traceLightPaths;
-        commands.dispatch(*kernel, light ? splats->bindings(0) : tile->bindings(0),
+        const bool light = kernels().traceLightPaths && (kernel == &*kernels().traceLightPaths || kernel == &*kernels().addSplats);
+        commands.dispatch(*kernel, light ? splats->bands().front()->bindings(0) : tile->bindings(0),
                           std::as_bytes(std::span<const CoursePass, 1>(&nothing, 1)), 1);
     }
     commands.submitAndWait();

@@ -56,8 +56,8 @@ struct RenderResources {
 
     // A tile of the film's pixels, all of them chosen.
     std::unique_ptr<Tile> makeTile(std::uint32_t begin, std::uint32_t count) const;
-    // For the picture's bands of pixels.
-    std::unique_ptr<SplatBuffer> makeSplatBuffer(std::uint32_t count) const;
+    // For the pixels of a picture with these settings.
+    std::unique_ptr<SplatBuffer> makeSplatBuffer(const RenderSettings& of) const;
 
     const KernelSet& kernels() const { return compiled->set; }
     PathBuffers& paths() const { return shared->paths; }

@@ -60,7 +60,7 @@ Film Renderer::emptyFilmOf(const FlatCamera& camera) const
 void Renderer::begin()
 {
     if (light_) {
-        light_->begin(*resources_, settings_);
+        light_->begin(settings_);
     }
     plan_ = SamplePlan(settings_, light_.has_value());
     resumedSeconds_ = 0.0;
@@ -187,14 +187,14 @@ bool Renderer::trace(const CameraPass& planned, const std::function<bool()>& sho
 bool Renderer::trace(const LightPass& pass, const std::function<bool()>& shouldContinue)
 {
     PassTracer tracer(*resources_);
-    const auto traced = light_->trace(tracer, pass, shouldContinue);
+    const auto seconds = light_->trace(tracer, films_->splats(), pass, shouldContinue);
     refuseBrokenStatus(resources_->device.description(), resources_->paths());
-    if (!traced) {
+    if (!seconds) {
         return false;
     }
-    films_->addSplats(traced->splats, pass);
+    films_->addSplats(pass);
     plan_.finish(pass);
-    addSeconds(traced->seconds);
+    addSeconds(*seconds);
     return true;
 }
 

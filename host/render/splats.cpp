@@ -20,53 +20,87 @@ BufferMap joined(BufferMap a, const BufferMap& b)
 
 }  // namespace
 
-SplatBuffer::SplatBuffer(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths,
-                         std::uint32_t count)
-    : device_(device),
+SplatBuffer::Band::Band(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths,
+                        std::uint32_t begin, std::uint32_t count)
+    : begin_(begin),
       count_(count),
-      splats_(device, "picture's splats", BufferKind::Storage, count * sizeof(Splat))
+      pass_(device, "picture's splats", BufferKind::Storage, count * sizeof(Splat)),
+      block_(device, "picture's sums of splats", BufferKind::Storage, count * sizeof(Splat))
 {
-    const BufferMap fixed = joined(constants, {{kBindSplats, &splats_}});
+    const BufferMap fixed = joined(constants, {{kBindSplats, &pass_}, {kBindBlocks, &block_}});
     even_.emplace(layout, joined(fixed, paths.buffers(0)));
     odd_.emplace(layout, joined(fixed, paths.buffers(1)));
-    clear();
 }
 
-void SplatBuffer::clear()
+SplatBuffer::SplatBuffer(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths,
+                         const RenderSettings& settings)
+    : device_(device)
+{
+    const std::uint32_t end = settings.firstPixel() + settings.pixelCount(), most = 4 * settings.tilePixels;
+    for (std::uint32_t first = settings.firstPixel(); first < end; first += most) {
+        bands_.push_back(std::make_unique<Band>(device, layout, constants, paths, first, std::min(most, end - first)));
+    }
+    emptyPass();
+    emptyBlock();
+}
+
+void SplatBuffer::emptyPass() const
 {
     Commands commands(device_);
-    commands.fillWithZero(splats_);
+    for (const auto& band : bands_) {
+        commands.fillWithZero(band->pass_);
+    }
     commands.submitAndWait();
 }
 
-void SplatSums::add(std::span<const Splat> splats, std::uint32_t firstSample, std::uint32_t sampleCount)
+void SplatBuffer::emptyBlock() const
 {
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const Splat& splat = splats[i];
-        sums_[i][0] += wide(splat.red);
-        sums_[i][1] += wide(splat.green);
-        sums_[i][2] += wide(splat.blue);
-        sums_[i][3] += wide(splat.clamped);
+    Commands commands(device_);
+    for (const auto& band : bands_) {
+        commands.fillWithZero(band->block_);
     }
+    commands.submitAndWait();
+}
+
+void SplatSums::add(std::uint32_t firstSample, std::uint32_t sampleCount)
+{
     samples_ += sampleCount;
     if (endsBlock(firstSample + sampleCount)) {
         closeBlock();
     }
 }
 
-void SplatSums::closeBlock()
+void SplatSums::foldBlock(std::vector<SplatMoments>& page) const
 {
     if (samples_ == 0) {
         return;
     }
     const double share = unit_ / samples_;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const auto mean = [&](std::size_t c) { return static_cast<float>(static_cast<double>(sums_[i][c]) * share); };
-        const SplatMoments block{samples_, 1, {mean(0), mean(1), mean(2)}, glm::vec3(0.0F), mean(3)};
-        page_[i] = foldMoments(page_[i], block);
-        sums_[i] = {};
+    auto pixel = page.begin();
+    for (const auto& band : block_->bands()) {
+        for (const Splat& sum : band->readBlock()) {
+            const auto mean = [&](const uvec2& words) { return static_cast<float>(static_cast<double>(wide(words)) * share); };
+            const SplatMoments block{samples_, 1, {mean(sum.red), mean(sum.green), mean(sum.blue)}, glm::vec3(0.0F), mean(sum.clamped)};
+            *pixel = foldMoments(*pixel, block);
+            ++pixel;
+        }
     }
-    samples_ = 0;
+}
+
+void SplatSums::closeBlock()
+{
+    if (samples_ > 0) {
+        foldBlock(page_);
+        block_->emptyBlock();
+        samples_ = 0;
+    }
+}
+
+std::vector<SplatMoments> SplatSums::pageSoFar() const
+{
+    std::vector<SplatMoments> page = page_;
+    foldBlock(page);
+    return page;
 }
 
 void SplatSums::foldInto(std::vector<SplatMoments>& film)

@@ -10,6 +10,10 @@
 // The picture's pixels from Pass::tileBegin on.
 layout(set = 0, binding = kBindSplats, scalar) buffer SplatsBuffer { Splat splats[]; };
 
+#if defined(UPDATES_BLOCK_SPLATS)
+layout(set = 0, binding = kBindBlocks, scalar) buffer BlockSplatsBuffer { Splat blockSplats[]; };
+#endif
+
 const float kMaxUnits = 4611686018427387904.0;  // 2^62
 
 // Adds a number of units below kMaxUnits.

@@ -9,18 +9,12 @@
 #define UPDATES_RAY_COUNTS
 #include "access/paths.glsl"
 #include "access/status.glsl"
+#include "lib/add64.glsl"
 
 uint countGroups(uint count, uint share)
 {
     uint groupEntries = gl_WorkGroupSize.x * share;
     return (count + groupEntries - 1u) / groupEntries;
-}
-
-uvec2 add64(uvec2 sum, uint more)
-{
-    uint carry;
-    sum.x = uaddCarry(sum.x, more, carry);
-    return uvec2(sum.x, sum.y + carry);
 }
 
 uint takePaths(uint slots, uint share)
@@ -42,7 +36,7 @@ void sizeShadow(uint slots)
     queueSizes.shadow = count;
     queueSizes.shadowGroups = uvec3(countGroups(count, 1u), 1u, 1u);
     queueTails.shadow = 0u;
-    rayCounts.shadow = add64(rayCounts.shadow, count);
+    rayCounts.shadow = add64(rayCounts.shadow, uvec2(count, 0u));
 }
 
 void main()
@@ -50,7 +44,7 @@ void main()
     if (gl_GlobalInvocationID.x == 0u) {
         uint slots = pass.pixelCount * pass.sampleCount;
         if ((pass.sizes & kSizesPaths) != 0u) {
-            rayCounts.closest = add64(rayCounts.closest, takePaths(slots, 1u));
+            rayCounts.closest = add64(rayCounts.closest, uvec2(takePaths(slots, 1u), 0u));
         }
         if ((pass.sizes & kSizesShares) != 0u) {
             takePaths(slots, kPathsPerThread);
