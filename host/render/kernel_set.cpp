@@ -121,8 +121,8 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel :
-         {&sizeDispatch, &generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &addSplats, &accumulate, &showAov,
-          &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
+         {&sizeDispatch, &generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &addSplats, &accumulate,
+          &showAov, &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
           &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);
