@@ -6,6 +6,7 @@
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,24 @@ TEST_F(CausticsFilmTest, HasTheSameBitsInBands)
         settings.tilePixels = pixels;
         EXPECT_TRUE(sameBits(whole, render(settings))) << pixels;
     }
+}
+
+// In whichever band they are; and the film may be asked for while a block is open.
+TEST_F(CausticsFilmTest, PassesThatAreGivenUpAddNothing)
+{
+    RenderSettings settings = small(80);
+    settings.tilePixels = 100;
+    settings.schedule = Schedule::Persistent;
+    settings.uncheckedSeconds = 0.0;
+    Renderer renderer(testDevice(), flat, camera, settings);
+    int given = 0;
+    while (!renderer.plan().isDone()) {
+        int calls = 0;
+        given += renderer.advance([&] { return ++calls != 1 + given % 4 || given > 12; }) ? 0 : 1;
+        renderer.film();
+    }
+    EXPECT_EQ(given, 13);
+    EXPECT_TRUE(sameBits(renderer.film(), render(small(80))));
 }
 
 TEST_F(CausticsFilmTest, HasTheSameBitsOfPartsThatAreMerged)
