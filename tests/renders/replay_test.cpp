@@ -63,7 +63,7 @@ void expectConnected(const FlatScene& flat, const ReplayedPath& path)
             EXPECT_EQ(next.before.throughput, vertex.after.throughput);
             EXPECT_EQ(next.before.pdf, vertex.after.pdf);
             EXPECT_EQ(next.ray.source, flat.primitiveRefs[std::size_t{vertex.hit.primitiveRef} * kPrimitiveRefTexels].w);
-            EXPECT_EQ(vertex.after.throughput, vertex.bsdf.throughput / vertex.bsdf.continuation);
+            EXPECT_EQ(vertex.after.throughput, vertex.bsdf.throughput * (1.0F / vertex.bsdf.continuation));
         }
     }
 }
