@@ -85,6 +85,9 @@ std::uint64_t fingerprint(const FlatScene& scene)
     print.add(scene.materials);
     for (FlatLight light : scene.lights) {
         light.primitiveRef = 0;
+        if ((light.kind & kLightKindMask) == kRectangleLight) {
+            light.versineInner = light.versineOuter = 0.0F;  // follow from its edges
+        }
         print.add(std::vector<FlatLight>{light});
     }
     print.add(scene.principled);
