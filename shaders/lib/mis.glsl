@@ -15,10 +15,11 @@ float powerHeuristic(float f, float g)
     if (isinf(f)) {
         return isinf(g) ? 0.5 : 1.0;
     }
-    float larger = max(f, g), smaller = min(f, g);
+    bool first = f >= g;  // not by min and max, which give either one of a number and NaN
+    float larger = first ? f : g, smaller = first ? g : f;
     float r = smaller >= kSmallestNormal ? smaller / larger : 0.0;
     float weight = 1.0 / (1.0 + r * r);
-    return f >= g ? weight : r * r * weight;
+    return first ? weight : r * r * weight;
 }
 
 #endif
