@@ -38,12 +38,12 @@ RaySets captureRays(RenderResources& resources, std::uint32_t pixels)
     pass.pixelCount = pixels;
     pass.sampleCount = 1;
     watchPass(resources, *tile, pass, [&](const std::string& kernel, const CoursePass& at, PathBuffers& paths) {
-        const QueueTails tails = download<QueueTails>(paths.queueTails(), 1)[0];
         if (kernel == "generate_rays") {
             sets.primary = download<PathRay>(paths.rays(), pixels);
         } else if (kernel == "shade_surface" && at.pass.bounce == 0) {
-            sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), tails.shadow, pixels);
-            sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), tails.next, pixels);
+            const std::vector<Round> rounds = paths.readRounds();
+            sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), rounds[0].shadowRays, pixels);
+            sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), rounds[1].paths, pixels);
         }
     });
     return sets;

@@ -23,6 +23,8 @@ public:
     // As dispatch, but the device reads the three group counts from `arguments`, `offset` bytes from its start.
     void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push, const Buffer& arguments,
                           std::uint64_t offset);
+    // `bytes`: a multiple of 4, at most 64 KiB, as is the offset.
+    void write(const Buffer& buffer, std::uint64_t offset, std::span<const std::byte> bytes);
     // The buffer's size must be a multiple of 4 bytes.
     void fillWithZero(const Buffer& buffer);
     // Offsets and size are in bytes.
@@ -52,6 +54,7 @@ private:
     void begin(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> push);
     void end(const Kernel& kernel);
     void barrier();
+    void barrier(VkPipelineStageFlags stages, VkAccessFlags access);
     void transition(VkImage image, VkImageLayout from, VkImageLayout to);
 
     void copyToHost();

@@ -27,7 +27,6 @@ CameraRayKernels::CameraRayKernels(Device& device, const Specialization& constan
     : specialization(constants),
       layout(device, kernelSlots(), sizeof(Pass)),
       generateRays(layout, kernels::generate_rays, constants),
-      sizeDispatch(layout, kernels::size_dispatch, constants),
       traceClosest(layout, kernels::trace_closest, constants)
 {}
 
@@ -62,10 +61,9 @@ void CameraRays::compile()
 {
     choose({});
     Pass nothing{};
-    nothing.bounce = 1;
-    nothing.sizes = kSizesPaths;
+    paths_.setRounds(makeRounds(0, 0));
     Commands commands(device_);
-    for (const Kernel* kernel : {&kernels_->sizeDispatch, &kernels_->generateRays, &kernels_->traceClosest}) {
+    for (const Kernel* kernel : {&kernels_->generateRays, &kernels_->traceClosest}) {
         commands.dispatch(*kernel, even_, std::as_bytes(std::span<const Pass, 1>(&nothing, 1)), 1);
     }
     commands.submitAndWait();
@@ -88,13 +86,12 @@ std::vector<PathHit> CameraRays::trace(std::span<const std::uint32_t> pixels, st
     pass.pixelCount = static_cast<std::uint32_t>(pixels.size());
     pass.firstSample = firstSample;
     pass.sampleCount = sampleCount;
-    pass.sizes = kSizesPaths;
-    const std::uint32_t rays = pass.pixelCount * sampleCount;
+    const std::uint32_t rays = pass.pixelCount * sampleCount, groups = (rays + settings_.workgroup - 1) / settings_.workgroup;
+    paths_.setRounds(makeRounds(rays, groups));
     std::map<std::string, KernelStatistics> statistics;
     Recording recording(device_, statistics);
-    recording.dispatch(kernels_->generateRays, odd_, pass, (rays + settings_.workgroup - 1) / settings_.workgroup);
-    recording.dispatch(kernels_->sizeDispatch, even_, pass, 1);
-    recording.dispatchIndirect(kernels_->traceClosest, even_, pass, paths_.queueSizes(), offsetof(QueueSizes, closestGroups));
+    recording.dispatch(kernels_->generateRays, odd_, pass, groups);
+    recording.dispatch(kernels_->traceClosest, even_, pass, groups);
     recording.finish();
     refuseBrokenStatus(device_.description(), paths_);
     passSize_.learn(rays, {recording.longest(), recording.total()});

@@ -11,7 +11,7 @@ struct CameraRayKernels {
 
     Specialization specialization;
     KernelLayout layout;
-    Kernel generateRays, sizeDispatch, traceClosest;
+    Kernel generateRays, traceClosest;
 };
 
 class CameraRays {

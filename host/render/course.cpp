@@ -29,9 +29,9 @@ CourseEstimators::CourseEstimators(Device& device, const FlatScene& scene, const
 }
 
 void CourseEstimators::recordBounce(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
-                                    const Buffer& queueSizes) const
+                                    const Buffer& passRounds) const
 {
-    recordTrace(recording, *kernels.course.traceClosest, bindings, {pass, {}}, queueSizes, offsetof(QueueSizes, closestGroups));
+    recordTrace(recording, *kernels.course.traceClosest, bindings, {pass, {}}, passRounds);
     const PathLengths lengths = pathLengths(settings_);
     const std::vector<LightRound> finding = {{false, kNoLightIndex}};
     CoursePass round{pass, {}};
@@ -40,43 +40,43 @@ void CourseEstimators::recordBounce(Recording& recording, const KernelSet& kerne
         round.lightRound.light = each.light;
         round.lightRound.lightSample = each.sample;
         round.lightRound.lightSamples = each.samples;
-        recordRound(recording, kernels, bindings, round, each.hemisphere, queueSizes);
+        recordRound(recording, kernels, bindings, round, each.hemisphere, passRounds);
         round.lightRound.addsEmission = 0;
     }
-    recording.dispatchIndirect(*kernels.course.bounce, bindings, CoursePass{pass, {}}, queueSizes, offsetof(QueueSizes, closestGroups));
+    recording.dispatchIndirect(*kernels.course.bounce, bindings, CoursePass{pass, {}}, passRounds, groupsOf(pass.round));
 }
 
 void CourseEstimators::recordRound(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const CoursePass& round,
-                                   bool hemisphere, const Buffer& queueSizes) const
+                                   bool hemisphere, const Buffer& passRounds) const
 {
     const Kernel& sample = hemisphere ? *kernels.course.sampleHemisphere : *kernels.course.sampleLights;
-    recording.dispatchIndirect(sample, bindings, round, queueSizes, offsetof(QueueSizes, closestGroups));
-    if (hemisphere || round.lightRound.light != kNoLightIndex) {
-        Pass size = round.pass;
-        size.sizes = kSizesShadow;
-        recording.dispatch(*kernels.sizeDispatch, bindings, size, 1);
-        recordTrace(recording, hemisphere ? *kernels.course.traceHemisphere : *kernels.course.traceShadow, bindings, round, queueSizes,
-                    offsetof(QueueSizes, shadowGroups));
+    const bool traces = hemisphere || round.lightRound.light != kNoLightIndex;
+    if (traces) {  // the shadow rays of the round of direct light before are done
+        constexpr uint kNone = 0;
+        recording.write(passRounds, round.pass.round * sizeof(Round) + offsetof(Round, shadowRays), std::span<const uint>(&kNone, 1));
+    }
+    recording.dispatchIndirect(sample, bindings, round, passRounds, groupsOf(round.pass.round));
+    if (traces) {
+        recordTrace(recording, hemisphere ? *kernels.course.traceHemisphere : *kernels.course.traceShadow, bindings, round, passRounds);
     }
 }
 
 void CourseEstimators::recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round,
-                                   const Buffer& queueSizes, std::uint64_t groupsOffset) const
+                                   const Buffer& passRounds) const
 {
     const bool bruteForce = settings_.course.accelerator == Accelerator::None;
     const std::uint32_t step = bruteForce ? kScanPrimitiveRefs : refCount_;
     for (round.lightRound.firstRef = 0; round.lightRound.firstRef < refCount_; round.lightRound.firstRef += step) {
         round.lightRound.endRef = std::min(refCount_, round.lightRound.firstRef + step);
-        recording.dispatchIndirect(kernel, bindings, round, queueSizes, groupsOffset);
+        recording.dispatchIndirect(kernel, bindings, round, passRounds, groupsOf(round.pass.round));
     }
 }
 
 void CourseEstimators::recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
-                                       const Buffer& queueSizes) const
+                                       std::uint32_t groups) const
 {
     if (kernels.course.addLuminance) {
-        recording.dispatchIndirect(*kernels.course.addLuminance, bindings, CoursePass{pass, {}}, queueSizes,
-                                   offsetof(QueueSizes, endGroups));
+        recording.dispatch(*kernels.course.addLuminance, bindings, CoursePass{pass, {}}, groups);
     }
 }
 

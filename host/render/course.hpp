@@ -14,8 +14,8 @@ bool usesCourseEstimators(const RenderSettings& settings);
 
 // A bounce by the course's kernels:
 //
-//   size_dispatch -> course_trace_closest
-//   per round of direct light:  course_sample_lights -> size_dispatch -> course_trace_shadow
+//   course_trace_closest
+//   per round of direct light:  course_sample_lights -> course_trace_shadow
 //   course_bounce
 //
 // A round over the hemisphere has course_sample_hemisphere and course_trace_hemisphere instead. Brute force repeats each trace kernel for
@@ -27,17 +27,17 @@ public:
     const Buffer& parameters() const { return parameters_; }
 
     void recordBounce(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
-                      const Buffer& queueSizes) const;
-    // course_trace_closest or course_trace_shadow alone, over the queue whose group counts are at groupsOffset in queueSizes.
-    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round, const Buffer& queueSizes,
-                     std::uint64_t groupsOffset) const;
+                      const Buffer& passRounds) const;
+    // course_trace_closest or course_trace_shadow alone.
+    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round,
+                     const Buffer& passRounds) const;
     // Once no path is alive: updates the luminance statistics of --adaptive course.
     void recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
-                         const Buffer& queueSizes) const;
+                         std::uint32_t groups) const;
 
 private:
     void recordRound(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const CoursePass& round, bool hemisphere,
-                     const Buffer& queueSizes) const;
+                     const Buffer& passRounds) const;
 
     RenderSettings settings_;
     std::uint32_t lightCount_;

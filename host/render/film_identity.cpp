@@ -56,7 +56,6 @@ FilmIdentity makeIdentity(const SceneIdentity& scene, const FlatCamera& camera, 
 std::vector<EmbeddedShader> filmKernels()
 {
     return {kernels::generate_rays,
-            kernels::size_dispatch,
             kernels::accumulate,
             kernels::trace_paths,
             kernels::trace_closest,

@@ -104,7 +104,6 @@ KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const F
     }
     compile(generateRays, kernels::generate_rays, production);
     compile(accumulate, kernels::accumulate, production);
-    compile(sizeDispatch, kernels::size_dispatch, production);
     if (settings.aov != Aov::Radiance) {
         compile(showAov, kernels::show_aov, production);
     }
@@ -121,8 +120,8 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel :
-         {&sizeDispatch, &generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &addSplats, &accumulate,
-          &showAov, &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
+         {&generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &addSplats, &accumulate, &showAov,
+          &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
           &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);

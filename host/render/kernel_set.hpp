@@ -35,7 +35,7 @@ struct KernelSet {
     std::vector<const Kernel*> all() const;
 
     Specialization specialization;  // of the production kernels; that of the course's follows from it and the settings
-    std::optional<Kernel> generateRays, sizeDispatch, accumulate;
+    std::optional<Kernel> generateRays, accumulate;
     std::optional<Kernel> traceClosest, shadeSurface, traceShadow;  // of the wavefront
     std::optional<Kernel> tracePaths;                               // of the persistent schedule
     std::optional<Kernel> traceLightPaths, addSplats;               // of caustics

@@ -29,10 +29,10 @@ public:
     std::uint32_t choosePixels(Tile& tile, std::uint32_t samples);
 
 private:
-    bool traceToEnd(Recording& recording, const Tile& tile, Pass pass, const std::function<void()>& recordEnd);
+    bool traceToEnd(Recording& recording, const Tile& tile, Pass pass, const std::function<void(const Pass&)>& recordEnd);
+    void recordRounds(Recording& recording, std::uint32_t paths, std::uint32_t share) const;
     void recordRound(Recording& recording, const Bindings& bindings, const Pass& pass) const;
     void recordEnd(Recording& recording, const Tile& tile, const Pass& pass) const;
-    QueueSizes readSizes() const { return download<QueueSizes>(resources_.paths().queueSizes(), 1)[0]; }
     std::uint32_t portion() const;
     const KernelSet& kernels() const { return resources_.kernels(); }
 

@@ -49,13 +49,20 @@ std::vector<uint> firstSlots(std::size_t count)
 std::vector<BindingSlot> kernelSlots()
 {
     std::vector<BindingSlot> slots = DeviceScene::slots();
-    for (std::uint32_t binding = kBindRays; binding <= kBindStatus; ++binding) {
+    for (std::uint32_t binding = kBindRays; binding <= kBindNote; ++binding) {
         slots.push_back({binding, binding <= kBindShadowRays ? BufferKind::Both : BufferKind::Storage, binding + kTexelsOf});
     }
     slots.push_back({kBindParameters, BufferKind::Storage});
     slots.push_back({kBindSplats, BufferKind::Storage});
     slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
+}
+
+std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups)
+{
+    std::vector<Round> rounds(kEmptyRound + 1, Round{0, 0, uvec3(0, 1, 1)});
+    rounds[0] = {paths, 0, uvec3(groups, 1, 1)};
+    return rounds;
 }
 
 std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device)
@@ -86,14 +93,12 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       queueA_(makeArray<uint>(device, "queue's entries", capacity)),
       queueB_(makeArray<uint>(device, "queue's entries", capacity)),
       shadowQueue_(makeArray<uint>(device, "shadow queue's entries", capacity)),
-      queueSizes_(device, "queue sizes", BufferKind::Readback, sizeof(QueueSizes)),
-      queueTails_(makeArray<QueueTails>(device, "queue tails", 1)),
+      rounds_(makeArray<Round>(device, "rounds", kEmptyRound + 1, BufferKind::Readback)),
       rayCounts_(device, "ray counts", BufferKind::Readback, sizeof(RayCounts)),
       note_(device, "path's note", BufferKind::Readback, sizeof(PathNote)),
       status_(device, "status words", BufferKind::Readback, sizeof(Status))
 {
-    upload(queueSizes_, std::span<const QueueSizes>(std::vector<QueueSizes>(1)));
-    emptyQueues();
+    setRounds(makeRounds(0, 0));
     clearCounters();
     takeNote();
 }
@@ -104,11 +109,9 @@ void PathBuffers::clearCounters()
     upload(status_, std::span<const Status>(std::vector<Status>(1)));
 }
 
-void PathBuffers::emptyQueues() { upload(queueTails_, std::span<const QueueTails>(std::vector<QueueTails>(1))); }
-
 std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
 {
-    return capacity * kPathBytes + sizeof(QueueSizes) + sizeof(QueueTails) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
+    return capacity * kPathBytes + (kEmptyRound + 1) * sizeof(Round) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
 }
 
 BufferMap PathBuffers::buffers(std::uint32_t parity) const
@@ -122,21 +125,24 @@ BufferMap PathBuffers::buffers(std::uint32_t parity) const
             {kBindActiveQueue, parity == 0 ? &queueA_ : &queueB_},
             {kBindNextQueue, parity == 0 ? &queueB_ : &queueA_},
             {kBindShadowQueue, &shadowQueue_},
-            {kBindQueueSizes, &queueSizes_},
-            {kBindQueueTails, &queueTails_},
+            {kBindRounds, &rounds_},
             {kBindRayCounts, &rayCounts_},
             {kBindNote, &note_},
             {kBindStatus, &status_}};
 }
 
-void PathBuffers::queueRays(std::span<const PathRay> rays)
+void PathBuffers::queueRays(std::span<const PathRay> rays, std::uint32_t groups)
 {
+    setRounds(makeRounds(static_cast<std::uint32_t>(rays.size()), groups));
     upload(rays_, rays);
     upload(queueA_, std::span<const uint>(firstSlots(rays.size())));
 }
 
-void PathBuffers::queueShadowRays(std::span<const ShadowRay> rays)
+void PathBuffers::queueShadowRays(std::span<const ShadowRay> rays, std::uint32_t groups)
 {
+    std::vector<Round> rounds = makeRounds(0, groups);
+    rounds[0].shadowRays = static_cast<uint>(rays.size());
+    setRounds(rounds);
     std::vector<ShadowRay> light(rays.begin(), rays.end());
     for (ShadowRay& ray : light) {
         ray.contribution = vec3(1.0F);
@@ -144,8 +150,6 @@ void PathBuffers::queueShadowRays(std::span<const ShadowRay> rays)
     upload(shadowRays_, std::span<const ShadowRay>(light));
     upload(shadowQueue_, std::span<const uint>(firstSlots(rays.size())));
     upload(radiance_, std::span<const PathRadiance>(std::vector<PathRadiance>(rays.size())));
-    const QueueTails tails{0, static_cast<uint>(rays.size())};
-    upload(queueTails_, std::span<const QueueTails>(&tails, 1));
 }
 
 PathRadiance PathBuffers::takeRadiance()

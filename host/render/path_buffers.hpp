@@ -7,6 +7,7 @@
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
 
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
 #include <vector>
@@ -18,6 +19,11 @@ using BufferMap = std::map<std::uint32_t, const Buffer*>;
 
 // The binding slots of all kernels of a pass (shaders/kernels).
 std::vector<BindingSlot> kernelSlots();
+
+// Rounds of which only the first has paths, for `groups` workgroups.
+std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups);
+// Where the group counts of a round are, in bytes from the start of the rounds.
+constexpr std::uint64_t groupsOf(std::uint32_t round) { return round * sizeof(Round) + offsetof(Round, groups); }
 
 // The most paths that a device's limits have room for.
 std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device);
@@ -33,15 +39,14 @@ public:
     // `parity` 1 swaps the active and the next queue.
     BufferMap buffers(std::uint32_t parity) const;
 
-    // Stores the rays in the first slots and makes these slots the active queue at parity 0.
-    void queueRays(std::span<const PathRay> rays);
+    void setRounds(const std::vector<Round>& rounds) { upload(rounds_, std::span<const Round>(rounds)); }
+    // Stores the rays in the first slots and makes these slots the active queue at parity 0, for `groups` workgroups of round 0.
+    void queueRays(std::span<const PathRay> rays, std::uint32_t groups);
     // Stores the shadow rays in the first slots, each with a contribution of 1, and makes these slots the shadow queue. Clears their
     // radiance.
-    void queueShadowRays(std::span<const ShadowRay> rays);
+    void queueShadowRays(std::span<const ShadowRay> rays, std::uint32_t groups);
     // Of rays and of what went wrong.
     void clearCounters();
-    // To be called after a pass that was not finished.
-    void emptyQueues();
     // Return and reset the radiance of slot 0 and the note.
     PathRadiance takeRadiance();
     PathNote takeNote();
@@ -53,14 +58,14 @@ public:
     const Buffer& shadowRays() const { return shadowRays_; }
     const Buffer& nextQueue(std::uint32_t parity) const { return parity == 0 ? queueB_ : queueA_; }
     const Buffer& shadowQueue() const { return shadowQueue_; }
-    const Buffer& queueSizes() const { return queueSizes_; }
-    const Buffer& queueTails() const { return queueTails_; }
+    const Buffer& rounds() const { return rounds_; }
+    std::vector<Round> readRounds() const { return download<Round>(rounds_, kEmptyRound + 1); }
     const Buffer& rayCounts() const { return rayCounts_; }
     const Buffer& status() const { return status_; }
 
 private:
     Buffer rays_, hits_, states_, radiance_, firstHits_, shadowRays_, queueA_, queueB_, shadowQueue_;
-    Buffer queueSizes_, queueTails_, rayCounts_, note_, status_;
+    Buffer rounds_, rayCounts_, note_, status_;
 };
 
 // Pixels [begin, begin + count) of the picture. A storage buffer's limit (128 MiB where Vulkan allows the least) cuts large pictures into

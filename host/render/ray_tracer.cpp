@@ -6,41 +6,37 @@
 namespace glim {
 
 void RayTracer::recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course,
-                            const Pass& pass, std::uint64_t groupsOffset) const
+                            const Pass& pass) const
 {
     if (usesCourseEstimators(resources_.settings)) {
         CoursePass round{pass, {}};
         round.lightRound.lightSamples = 1;
-        resources_.course.recordTrace(recording, course.value(), tile_->bindings(0), round, resources_.paths().queueSizes(), groupsOffset);
+        resources_.course.recordTrace(recording, course.value(), tile_->bindings(0), round, resources_.paths().rounds());
     } else {
-        recording.dispatchIndirect(production.value(), tile_->bindings(0), pass, resources_.paths().queueSizes(), groupsOffset);
+        recording.dispatchIndirect(production.value(), tile_->bindings(0), pass, resources_.paths().rounds(), groupsOf(0));
     }
 }
 
 std::vector<PathHit> RayTracer::trace(std::span<const PathRay> rays)
 {
-    resources_.paths().queueRays(rays);
+    resources_.paths().queueRays(rays, resources_.countGroups(static_cast<std::uint32_t>(rays.size())));
     Pass pass = tile_->pass();
     pass.pixelCount = static_cast<std::uint32_t>(rays.size());
     pass.sampleCount = 1;
     Recording recording(resources_.device, resources_.statistics);
-    resources_.recordSize(recording, tile_->bindings(0), pass, kSizesPaths);
-    recordTrace(recording, resources_.kernels().traceClosest, resources_.kernels().course.traceClosest, pass,
-                offsetof(QueueSizes, closestGroups));
+    recordTrace(recording, resources_.kernels().traceClosest, resources_.kernels().course.traceClosest, pass);
     recording.finish();
     return download<PathHit>(resources_.paths().hits(), rays.size());
 }
 
 std::vector<bool> RayTracer::trace(std::span<const ShadowRay> rays)
 {
-    resources_.paths().queueShadowRays(rays);
+    resources_.paths().queueShadowRays(rays, resources_.countGroups(static_cast<std::uint32_t>(rays.size())));
     Pass pass = tile_->pass();
     pass.pixelCount = static_cast<std::uint32_t>(rays.size());
     pass.sampleCount = 1;
     Recording recording(resources_.device, resources_.statistics);
-    resources_.recordSize(recording, tile_->bindings(0), pass, kSizesShadow);
-    recordTrace(recording, resources_.kernels().traceShadow, resources_.kernels().course.traceShadow, pass,
-                offsetof(QueueSizes, shadowGroups));
+    recordTrace(recording, resources_.kernels().traceShadow, resources_.kernels().course.traceShadow, pass);
     recording.finish();
     const std::vector<PathRadiance> found = download<PathRadiance>(resources_.paths().radiance(), rays.size());
     std::vector<bool> free(rays.size());

@@ -40,6 +40,14 @@ public:
     {
         recordIndirect(kernel, bindings, std::as_bytes(std::span<const Push, 1>(&push, 1)), arguments, offset);
     }
+    // The device writes `values` to the buffer, `offset` bytes from its start.
+    template <class T>
+    void write(const Buffer& buffer, std::uint64_t offset, std::span<const T> values)
+    {
+        if (Commands* commands = next()) {
+            commands->write(buffer, offset, std::as_bytes(values));
+        }
+    }
     // The next dispatches, so many, run all or not at all.
     void keepTogether(std::uint32_t dispatches);
     // Lets the device begin with what is recorded, while the next dispatches are; once before each finish().

@@ -112,8 +112,7 @@ void RenderResources::runOnce()
     onePixel.width = onePixel.height = 1;
     const std::unique_ptr<SplatBuffer> splats = makeSplatBuffer(onePixel);
     CoursePass nothing{tile->pass(), {}};
-    nothing.pass.bounce = 1;
-    nothing.pass.sizes = kSizesPaths | kSizesShadow;
+    shared->paths.setRounds(makeRounds(0, 0));
     Commands commands(device);
     for (const Kernel* kernel : kernels().all()) {
         const bool light = kernels().traceLightPaths && (kernel == &*kernels().traceLightPaths || kernel == &*kernels().addSplats);
@@ -122,12 +121,6 @@ void RenderResources::runOnce()
     }
     commands.submitAndWait();
     compileSeconds += secondsSince(start);
-}
-
-void RenderResources::recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const
-{
-    pass.sizes = queues;
-    recording.dispatch(*kernels().sizeDispatch, bindings, pass, 1);
 }
 
 }  // namespace glim

@@ -62,8 +62,6 @@ struct RenderResources {
     const KernelSet& kernels() const { return compiled->set; }
     PathBuffers& paths() const { return shared->paths; }
     std::uint32_t countGroups(std::uint32_t count) const { return (count + settings.workgroup - 1) / settings.workgroup; }
-    // Records size_dispatch for these queues (kSizesPaths ...).
-    void recordSize(Recording& recording, const Bindings& bindings, Pass pass, std::uint32_t queues) const;
 
     Device& device;
     const RenderSettings settings;

@@ -28,7 +28,7 @@ public:
     {
         const bool whole = at.lightRound.endRef == refCount_;  // brute force: the last of several dispatches
         if (kernel == "trace_closest" || (kernel == "course_trace_closest" && whole)) {
-            alive_ = firstOf<QueueSizes>(paths.queueSizes()).closest > 0;
+            alive_ = paths.readRounds()[at.pass.round].paths > 0;
             if (alive_) {
                 beginVertex(at.pass, paths);
             }
@@ -47,7 +47,7 @@ public:
             vertices_.back().sampledLights.emplace_back().hemisphere = true;
             ray_ = firstOf<ShadowRay>(paths.shadowRays());
         } else if (kernel == "trace_shadow" || (whole && (kernel == "course_trace_shadow" || kernel == "course_trace_hemisphere"))) {
-            takeTraced(paths);
+            takeTraced(at.pass, paths);
         } else if (kernel == "course_bounce") {
             endVertex(paths.takeNote(), at.pass, paths);
         }
@@ -79,9 +79,9 @@ private:
         ray_ = firstOf<ShadowRay>(paths.shadowRays());  // brute force changes it
     }
 
-    void takeTraced(PathBuffers& paths)
+    void takeTraced(const Pass& pass, PathBuffers& paths)
     {
-        if (firstOf<QueueSizes>(paths.queueSizes()).shadow > 0) {
+        if (paths.readRounds()[pass.round].shadowRays > 0) {
             SampledLight& last = vertices_.back().sampledLights.back();
             last.hasShadowRay = true;
             last.ray = ray_;
@@ -94,7 +94,7 @@ private:
         PathVertex& vertex = vertices_.back();
         vertex.bsdf = note;
         vertex.after = firstOf<PathState>(paths.states());
-        const bool continues = firstOf<QueueTails>(paths.queueTails()).next > 0;
+        const bool continues = paths.readRounds()[pass.round + 1].paths > 0;
         vertex.end = continues                                    ? PathEnd::Continues
                      : vertex.hit.primitiveRef == kNoPrimitiveRef ? PathEnd::Missed
                      : pass.bounce == maxBounces_                 ? PathEnd::LastBounce

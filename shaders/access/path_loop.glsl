@@ -102,25 +102,27 @@ void traceShare(uint entry, uint end, inout Work work)
         } while (entry < end && work.steps < kStepsPerThread);
     }
     if (alive) {
-        pathRays[path.slot] = path.ray;
-        pathStates[path.slot] = path.state;
-        pathRadiance[path.slot] = path.light;
-        nextQueue[atomicAdd(queueTails.next, 1u)] = path.slot;
+        storeRay(path.slot, path.ray);
+        storeState(path.slot, path.state);
+        storeRadiance(path.slot, path.light);
+        queuePath(path.slot);
         entry += kNeighbours;
     }
     for (; entry < end; entry += kNeighbours) {
-        nextQueue[atomicAdd(queueTails.next, 1u)] = fetchEntry(entry);
+        queuePath(fetchEntry(entry));
     }
 }
 
-// count: of the queue's entries.
-void traceQueue(uint count)
+void traceQueue()
 {
     uint thread = interleavedInvocation();
+    if (thread == 0u) {
+        beginRound(kPathsPerThread);
+    }
     uint lane = thread % kNeighbours;
     uint begin = (thread - lane) * kPathsPerThread;
     Work work = Work(0u, 0u, 0u);
-    traceShare(begin + lane, min(count, begin + kNeighbours * kPathsPerThread), work);
+    traceShare(begin + lane, min(activePaths(), begin + kNeighbours * kPathsPerThread), work);
     countRays(work.closest, work.shadow);
     checkLoopBudget(render.canarySteps);
 }

@@ -4,6 +4,7 @@
 #define GLIM_ACCESS_PATHS
 
 #include "pass.glsl"
+#include "queues.glsl"
 #include "shared/pixel_moments.h"
 
 #define DECLARE(qualifier, number, type, name) \
@@ -13,6 +14,9 @@
 // updates a buffer stores values that depend on those it has read, so the reads come first
 // (KernelRulesTest).
 #define TEXELS(number, name) layout(set = 0, binding = number + kTexelsOf) uniform usamplerBuffer name
+// They are stored as texels too: GPUs store four words at once if the type says that they lie together.
+#define WORDS(number, name) \
+    layout(set = 0, binding = number, scalar) writeonly buffer name##Buffer { uvec4 name[]; }
 
 #if defined(READS_RAYS) || defined(UPDATES_RAYS)
 TEXELS(kBindRays, rayTexels);
@@ -25,7 +29,13 @@ PathRay fetchRay(uint slot)
 }
 #endif
 #if defined(WRITES_RAYS) || defined(UPDATES_RAYS)
-DECLARE(writeonly, kBindRays, PathRay, pathRays);
+WORDS(kBindRays, rayWords);
+
+void storeRay(uint slot, PathRay ray)
+{
+    rayWords[2u * slot] = uvec4(floatBitsToUint(ray.origin), ray.source);
+    rayWords[2u * slot + 1u] = uvec4(floatBitsToUint(ray.direction), ray.media);
+}
 #endif
 
 #if defined(READS_HITS) || defined(UPDATES_HITS)
@@ -38,7 +48,12 @@ PathHit fetchHit(uint slot)
 }
 #endif
 #if defined(WRITES_HITS) || defined(UPDATES_HITS)
-DECLARE(writeonly, kBindHits, PathHit, pathHits);
+WORDS(kBindHits, hitWords);
+
+void storeHit(uint slot, PathHit hit)
+{
+    hitWords[slot] = uvec4(hit.primitiveRef, floatBitsToUint(hit.t), floatBitsToUint(hit.barycentric));
+}
 #endif
 
 #if defined(READS_STATES) || defined(UPDATES_STATES)
@@ -52,7 +67,13 @@ PathState fetchState(uint slot)
 }
 #endif
 #if defined(WRITES_STATES) || defined(UPDATES_STATES)
-DECLARE(writeonly, kBindStates, PathState, pathStates);
+WORDS(kBindStates, stateWords);
+
+void storeState(uint slot, PathState state)
+{
+    stateWords[2u * slot] = uvec4(floatBitsToUint(state.throughput), floatBitsToUint(state.pdf));
+    stateWords[2u * slot + 1u] = uvec4(floatBitsToUint(state.cosine), floatBitsToUint(state.etaScale), state.bounce, state.normal);
+}
 #endif
 
 #if defined(READS_RADIANCE) || defined(UPDATES_RADIANCE)
@@ -65,7 +86,12 @@ PathRadiance fetchRadiance(uint slot)
 }
 #endif
 #if defined(WRITES_RADIANCE) || defined(UPDATES_RADIANCE)
-DECLARE(writeonly, kBindRadiance, PathRadiance, pathRadiance);
+WORDS(kBindRadiance, radianceWords);
+
+void storeRadiance(uint slot, PathRadiance path)
+{
+    radianceWords[slot] = uvec4(floatBitsToUint(path.radiance), floatBitsToUint(path.clamped));
+}
 #endif
 
 #if defined(READS_FIRST_HITS)
@@ -78,7 +104,13 @@ FirstHit fetchFirstHit(uint slot)
     return FirstHit(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w));
 }
 #elif defined(WRITES_FIRST_HITS)
-DECLARE(writeonly, kBindFirstHits, FirstHit, pathFirstHits);
+WORDS(kBindFirstHits, firstHitWords);
+
+void storeFirstHit(uint slot, FirstHit first)
+{
+    firstHitWords[2u * slot] = uvec4(floatBitsToUint(first.albedo), floatBitsToUint(first.alpha));
+    firstHitWords[2u * slot + 1u] = uvec4(floatBitsToUint(first.normal), floatBitsToUint(first.depth));
+}
 #endif
 
 #if defined(READS_SHADOW_RAYS) || defined(UPDATES_SHADOW_RAYS)
@@ -93,31 +125,14 @@ ShadowRay fetchShadowRay(uint slot)
 }
 #endif
 #if defined(WRITES_SHADOW_RAYS) || defined(UPDATES_SHADOW_RAYS)
-DECLARE(writeonly, kBindShadowRays, ShadowRay, pathShadowRays);
-#endif
+WORDS(kBindShadowRays, shadowRayWords);
 
-#if defined(READS_ACTIVE_QUEUE)
-DECLARE(readonly, kBindActiveQueue, uint, activeQueue);
-#endif
-
-#if defined(WRITES_NEXT_QUEUE)
-DECLARE(writeonly, kBindNextQueue, uint, nextQueue);
-#endif
-
-#if defined(READS_SHADOW_QUEUE)
-DECLARE(readonly, kBindShadowQueue, uint, shadowQueue);
-#elif defined(WRITES_SHADOW_QUEUE)
-DECLARE(writeonly, kBindShadowQueue, uint, shadowQueue);
-#endif
-
-#if defined(READS_QUEUE_SIZES)
-layout(set = 0, binding = kBindQueueSizes, scalar) readonly buffer QueueSizesBuffer { QueueSizes queueSizes; };
-#elif defined(WRITES_QUEUE_SIZES)
-layout(set = 0, binding = kBindQueueSizes, scalar) writeonly buffer QueueSizesBuffer { QueueSizes queueSizes; };
-#endif
-
-#if defined(UPDATES_QUEUE_TAILS)
-layout(set = 0, binding = kBindQueueTails, scalar) buffer QueueTailsBuffer { QueueTails queueTails; };
+void storeShadowRay(uint slot, ShadowRay ray)
+{
+    shadowRayWords[3u * slot] = uvec4(floatBitsToUint(ray.origin), ray.source);
+    shadowRayWords[3u * slot + 1u] = uvec4(floatBitsToUint(ray.direction), ray.target);
+    shadowRayWords[3u * slot + 2u] = uvec4(floatBitsToUint(ray.contribution), floatBitsToUint(ray.tMax));
+}
 #endif
 
 #if defined(UPDATES_FILM)
@@ -130,23 +145,6 @@ DECLARE(, kBindBrightest, BrightestSample, filmBrightest);
 DECLARE(, kBindLuminance, LuminanceMoments, filmLuminance);
 #elif defined(READS_LUMINANCE)
 DECLARE(readonly, kBindLuminance, LuminanceMoments, filmLuminance);
-#endif
-
-#if defined(UPDATES_RAY_COUNTS)
-layout(set = 0, binding = kBindRayCounts, scalar) buffer RayCountsBuffer { RayCounts rayCounts; };
-
-// Called by many threads at once.
-void countRays(uint closest, uint shadow)
-{
-    uint before = atomicAdd(rayCounts.closest.x, closest);
-    if (before + closest < before) {
-        atomicAdd(rayCounts.closest.y, 1u);
-    }
-    before = atomicAdd(rayCounts.shadow.x, shadow);
-    if (before + shadow < before) {
-        atomicAdd(rayCounts.shadow.y, 1u);
-    }
-}
 #endif
 
 #endif

@@ -21,7 +21,7 @@ PathRadiance addLight(PathRadiance sum, vec3 contribution, uint pathLength, floa
 void addRadiance(uint slot, vec3 contribution, uint pathLength)
 {
     if (isLengthInRange(pathLength)) {
-        pathRadiance[slot] = addLight(fetchRadiance(slot), contribution, pathLength, render.clampIndirect);
+        storeRadiance(slot, addLight(fetchRadiance(slot), contribution, pathLength, render.clampIndirect));
     }
 }
 #endif

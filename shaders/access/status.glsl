@@ -16,13 +16,11 @@ void checkLoopBudget(uint canarySteps)
     }
 }
 
-// A kernel appends each slot at most once, so a longer queue has lost entries or counted some twice.
-uint checkQueue(uint count, uint slots)
+void reportOverflow(uint entries)
 {
-    if (count > slots) {
-        atomicAdd(status.overflows, count - slots);
+    if (entries > 0u) {
+        atomicAdd(status.overflows, entries);
     }
-    return min(count, slots);
 }
 
 void reportTransparencyCap()

@@ -1,11 +1,12 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block into the
-// page when the block ends. So the bits do not depend on how the samples were divided into passes.
-// Reads radiance and first hits. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are not
-// finite and leaves them out.
+// page when the block ends. So the bits do not depend on how the samples were divided into passes. Does nothing while a path is alive.
+// Reads radiance, first hits, rounds. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are
+// not finite and leaves them out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
 #define READS_FIRST_HITS
+#define READS_ROUNDS
 #define UPDATES_FILM
 #include "access/paths.glsl"
 #include "access/status.glsl"
@@ -86,7 +87,7 @@ void addPixel(PassPixel from)
 void main()
 {
     uint pixel = interleavedInvocation();
-    if (pixel < pass.pixelCount) {
+    if (pixel < pass.pixelCount && activePaths() == 0u) {
         addPixel(passPixel(pixel));
     }
     checkLoopBudget(render.canarySteps);

@@ -1,6 +1,6 @@
 // One thread is one slot of the pass: a sample of a pixel. Starts its path at the camera.
-// Reads the parameters and, if rays begin in different media, the scene. Writes rays, states, radiance and the next queue, which holds all
-// slots; size_dispatch relies on that.
+// Reads the parameters and, if rays begin in different media, the scene. Writes rays, states, radiance and, to the next queue,
+// all slots.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_RAYS
@@ -32,9 +32,9 @@ void main()
             Steps uncounted = Steps(0u, 0u);
             ray.media = mediaAround(ray.origin, uncounted);
         }
-        pathRays[slot] = ray;
-        pathStates[slot] = PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u);
-        pathRadiance[slot] = PathRadiance(vec3(0.0), 0.0);
+        storeRay(slot, ray);
+        storeState(slot, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u));
+        storeRadiance(slot, PathRadiance(vec3(0.0), 0.0));
         nextQueue[slot] = slot;
     }
     checkLoopBudget(render.canarySteps);

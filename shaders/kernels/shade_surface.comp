@@ -6,7 +6,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
 #define UPDATES_RAYS
 #define READS_HITS
 #define UPDATES_STATES
@@ -15,7 +14,7 @@
 #define WRITES_SHADOW_RAYS
 #define WRITES_SHADOW_QUEUE
 #define WRITES_NEXT_QUEUE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
 #include "access/status.glsl"
@@ -23,7 +22,7 @@
 void visitMiss(uint slot, PathRay ray, PathState state)
 {
     if (pass.bounce == 0u) {
-        pathFirstHits[slot] = makeNoFirstHit();
+        storeFirstHit(slot, makeNoFirstHit());
     }
     if (hasEnvironment()) {
         addRadiance(slot, shadeMiss(ray, state), pass.bounce);
@@ -34,26 +33,26 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
 {
     VertexResult vertex = shadeSurface(makeSampleId(slot), ray, hit, state);
     if (pass.bounce == 0u) {
-        pathFirstHits[slot] = vertex.firstHit;
+        storeFirstHit(slot, vertex.firstHit);
     }
     if (hasEmissiveSurfaces()) {
         addRadiance(slot, vertex.emitted, pass.bounce);
     }
     if (vertex.hasShadowRay) {
-        pathShadowRays[slot] = vertex.shadowRay;
-        shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
+        storeShadowRay(slot, vertex.shadowRay);
+        queueShadowRay(slot);
     }
     if (vertex.hasNextRay) {
-        pathRays[slot] = vertex.ray;
-        pathStates[slot] = vertex.state;
-        nextQueue[atomicAdd(queueTails.next, 1u)] = slot;
+        storeRay(slot, vertex.ray);
+        storeState(slot, vertex.state);
+        queuePath(slot);
     }
 }
 
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.closest) {
+    if (entry < activePaths()) {
         uint slot = activeQueue[entry];
         PathRay ray = fetchRay(slot);
         PathHit hit = fetchHit(slot);

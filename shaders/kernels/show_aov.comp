@@ -33,7 +33,7 @@ void main()
 {
     uint slot = interleavedInvocation();
     if (slot < pass.pixelCount * pass.sampleCount) {
-        pathRadiance[slot] = PathRadiance(getAov(slot), 0.0);
+        storeRadiance(slot, PathRadiance(getAov(slot), 0.0));
     }
     checkLoopBudget(render.canarySteps);
 }

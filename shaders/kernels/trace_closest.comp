@@ -1,12 +1,13 @@
 // One thread is one entry of the active queue. Finds what its ray meets first.
-// Reads the scene, the queue, rays. Writes hits. Updates states.
+// Reads the scene, the queue, rays. Writes hits. Updates states, rounds, ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
+#define UPDATES_ROUNDS
 #define READS_RAYS
 #define WRITES_HITS
 #define UPDATES_STATES
+#define UPDATES_RAY_COUNTS
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
@@ -14,13 +15,17 @@
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.closest) {
+    if (entry == 0u) {
+        beginRound(1u);
+        countRays(activePaths(), 0u);
+    }
+    if (entry < activePaths()) {
         uint slot = activeQueue[entry];
         Steps uncounted = Steps(0u, 0u);
         VisibleHit visible = traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), uncounted);
-        pathHits[slot] = visible.hit;
+        storeHit(slot, visible.hit);
         if (hasFeature(kFeatureThinWalls)) {
-            pathStates[slot].throughput = fetchState(slot).throughput * visible.weight;
+            stateWords[2u * slot].xyz = floatBitsToUint(fetchState(slot).throughput * visible.weight);
         }
     }
     checkLoopBudget(render.canarySteps);

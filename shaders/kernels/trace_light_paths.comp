@@ -6,12 +6,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
 #define UPDATES_RAYS
 #define UPDATES_STATES
 #define UPDATES_RADIANCE
 #define WRITES_NEXT_QUEUE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #define UPDATES_RAY_COUNTS
 #include "access/light_path.glsl"
 #include "access/light_traversal.glsl"
@@ -96,5 +95,5 @@ void endPath(Path path) {}
 
 void main()
 {
-    traceQueue(pass.bounce == 0u ? pass.pixelCount : queueSizes.closest);
+    traceQueue();
 }

@@ -4,13 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
 #define UPDATES_RAYS
 #define UPDATES_STATES
 #define UPDATES_RADIANCE
 #define WRITES_FIRST_HITS
 #define WRITES_NEXT_QUEUE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #define UPDATES_RAY_COUNTS
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
@@ -56,7 +55,7 @@ void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
 void visitMiss(inout Path path)
 {
     if (path.state.bounce == 0u) {
-        pathFirstHits[path.slot] = makeNoFirstHit();
+        storeFirstHit(path.slot, makeNoFirstHit());
     }
     if (hasEnvironment()) {
         addLight(path, 0u, shadeMiss(path.ray, path.state), path.state.bounce);
@@ -68,7 +67,7 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
 {
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
     if (path.state.bounce == 0u) {
-        pathFirstHits[path.slot] = vertex.firstHit;
+        storeFirstHit(path.slot, vertex.firstHit);
     }
     if (hasEmissiveSurfaces()) {
         addLight(path, 0u, vertex.emitted, path.state.bounce);
@@ -83,10 +82,10 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
 
 void endPath(Path path)
 {
-    pathRadiance[path.slot] = path.light;
+    storeRadiance(path.slot, path.light);
 }
 
 void main()
 {
-    traceQueue(queueSizes.closest);
+    traceQueue();
 }

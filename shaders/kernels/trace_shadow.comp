@@ -1,11 +1,12 @@
 // One thread is one entry of the shadow queue. Adds the light it carries if nothing is in its way.
-// Reads the scene, the shadow queue, shadow rays. Updates radiance.
+// Reads the scene, the shadow queue, shadow rays. Updates radiance, ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_SHADOW_QUEUE
-#define READS_QUEUE_SIZES
+#define READS_ROUNDS
 #define READS_SHADOW_RAYS
 #define UPDATES_RADIANCE
+#define UPDATES_RAY_COUNTS
 #include "access/radiance.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
@@ -13,7 +14,10 @@
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.shadow) {
+    if (entry == 0u) {
+        countRays(0u, activeShadowRays());
+    }
+    if (entry < activeShadowRays()) {
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
         vec3 clear = transmittance(ray);

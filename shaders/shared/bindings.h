@@ -34,9 +34,8 @@ GLIM_CONST uint kBindShadowRays = 12u;
 GLIM_CONST uint kBindActiveQueue = 13u;
 GLIM_CONST uint kBindNextQueue = 14u;
 GLIM_CONST uint kBindShadowQueue = 15u;
-GLIM_CONST uint kBindQueueSizes = 16u;
-GLIM_CONST uint kBindQueueTails = 17u;
-GLIM_CONST uint kBindRayCounts = 18u;
+GLIM_CONST uint kBindRounds = 16u;
+GLIM_CONST uint kBindRayCounts = 17u;
 GLIM_CONST uint kBindBlocks = 19u;
 GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
@@ -47,7 +46,7 @@ GLIM_CONST uint kBindChosenPixels = 22u;
 // notes.glsl
 GLIM_CONST uint kBindNote = 24u;
 // status.glsl
-GLIM_CONST uint kBindStatus = 25u;
+GLIM_CONST uint kBindStatus = 18u;
 // course/: the parameters of the course's estimators
 GLIM_CONST uint kBindCourseParameters = 33u;
 // display.glsl, with blocks and pages

@@ -86,21 +86,16 @@ struct PathNote {
     float continuation;  // roulette's probability to continue; 0: the path ended before
 };
 
-// Written by size_dispatch: the length of each queue and the indirect arguments of the dispatches over it.
-struct QueueSizes {
-    uint closest;
-    uint shadow;
-    uvec3 closestGroups;
-    uvec3 shadowGroups;
-    uvec3 endGroups;  // over the pass's pixels, for the kernels that end it: none while a path is alive
-    uint lastBounce;  // that had a path
+// What a pass traces in one round: a bounce of the wavefront, or a dispatch of trace_paths.
+struct Round {
+    uint paths, shadowRays;  // entries of their queues
+    uvec3 groups;  // workgroups of its dispatches (indirect arguments): enough for the paths of the round before, which are no fewer
 };
 
-// Where the next entry goes.
-struct QueueTails {
-    uint next;
-    uint shadow;
-};
+// Rounds that are recorded at once, at most. The kernels of the last one queue paths for the round after it.
+GLIM_CONST uint kMaxRounds = 64u;
+// Has no paths.
+GLIM_CONST uint kEmptyRound = kMaxRounds + 1u;
 
 // Rays traced so far in this render, 64 bits in two words.
 struct RayCounts {
@@ -151,11 +146,6 @@ struct ChosenPixel {
     uint samplesBefore;  // added to the pass's firstSample
 };
 
-// Which queues size_dispatch sizes.
-GLIM_CONST uint kSizesPaths = 1u;
-GLIM_CONST uint kSizesShadow = 2u;
-GLIM_CONST uint kSizesShares = 4u;  // the paths, for trace_paths, which counts its rays itself
-
 // Push constants of every kernel of a pass: pixels [firstPixel, firstPixel + pixelCount) of a tile or, in adaptive renders, of
 // its list of chosen pixels, each with samples [firstSample, firstSample + sampleCount); a chosen pixel may begin later.
 // Slot = (pixel - firstPixel) * sampleCount + (sample - firstSample).
@@ -167,7 +157,7 @@ struct Pass {
     uint sampleCount;
     uint bounce;      // surfaces that the paths of the active queue have met
     uint accumulate;  // kEndsBlock | kEveryPixel
-    uint sizes;       // kSizesPaths | kSizesShadow, or kSizesShares
+    uint round;       // of those recorded at once
 };
 
 // What stays the same during a render. In a storage buffer: some drivers compile kernels anew for the values of a

@@ -9,9 +9,9 @@
 namespace glim {
 namespace {
 
-const EmbeddedShader* const kKernels[] = {
-    &kernels::accumulate, &kernels::course_bounce, &kernels::course_sample_lights, &kernels::generate_rays, &kernels::shade_surface,
-    &kernels::show_aov,   &kernels::size_dispatch, &kernels::trace_closest,        &kernels::trace_paths,   &kernels::trace_shadow};
+const EmbeddedShader* const kKernels[] = {&kernels::accumulate,    &kernels::course_bounce, &kernels::course_sample_lights,
+                                          &kernels::generate_rays, &kernels::shade_surface, &kernels::show_aov,
+                                          &kernels::trace_closest, &kernels::trace_paths,   &kernels::trace_shadow};
 
 const FeatureMask kFeatureMasks[] = {
     0,

@@ -58,7 +58,7 @@ TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
     const Marks embedded = marksOf(GetParam().value->words());
     EXPECT_TRUE(embedded.keepsInfinity);
     EXPECT_EQ(embedded.arithmetic, embedded.marked);
-    EXPECT_EQ(embedded.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+    EXPECT_FALSE(embedded.arithmetic.empty());
     for (const FeatureMask features :
          {FeatureMask{0}, kFeatureTriangleLights | kFeatureMirror, kFeaturePrincipled | kFeatureTextures, kAllFeatures}) {
         SCOPED_TRACE("features " + std::to_string(features));
@@ -67,15 +67,14 @@ TEST_P(FloatMarksTest, H3H37H38EveryOperationIsExact)
             EXPECT_TRUE(given.keepsInfinity);
             EXPECT_EQ(given.roundsToNearest, arithmetic.declaresRounding);
             EXPECT_TRUE(std::includes(given.marked.begin(), given.marked.end(), given.arithmetic.begin(), given.arithmetic.end()));
-            EXPECT_EQ(given.arithmetic.empty(), GetParam().value == &kernels::size_dispatch);
+            EXPECT_FALSE(given.arithmetic.empty());
         }
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FloatMarksTest,
-                         testing::Values(named(kernels::generate_rays), named(kernels::size_dispatch), named(kernels::trace_closest),
-                                         named(kernels::shade_surface), named(kernels::trace_paths), named(kernels::trace_shadow),
-                                         named(kernels::accumulate)),
+                         testing::Values(named(kernels::generate_rays), named(kernels::trace_closest), named(kernels::shade_surface),
+                                         named(kernels::trace_paths), named(kernels::trace_shadow), named(kernels::accumulate)),
                          test::nameOfParameter);
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(KernelRegistersTest, EachKernelIsCompiledAlone)
         std::cerr << "kernel " << shader.name << (shared ? ", shared stack\n" : "\n");
         EXPECT_NE(Kernel(layout, shader, constants).pipeline(), VkPipeline{});
     };
-    for (const EmbeddedShader& shader : {kernels::generate_rays, kernels::size_dispatch, kernels::shade_surface, kernels::accumulate}) {
+    for (const EmbeddedShader& shader : {kernels::generate_rays, kernels::shade_surface, kernels::accumulate}) {
         compile(shader, false);
     }
     for (const EmbeddedShader& shader : {kernels::trace_closest, kernels::trace_shadow, kernels::trace_light_paths, kernels::trace_paths}) {

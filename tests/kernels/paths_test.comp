@@ -4,12 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
 #define READS_SHADOW_QUEUE
-#define READS_QUEUE_SIZES
 #define READS_RAYS
 #define READS_SHADOW_RAYS
 #define UPDATES_STATES
 #define UPDATES_RADIANCE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #define UPDATES_RAY_COUNTS
 #define UPDATES_HITS
 #define WRITES_FIRST_HITS
@@ -20,20 +19,24 @@
 void main()
 {
     uint slot = TEST_THREAD;
-    if (slot < queueSizes.closest) {
+    if (slot < rounds[2].paths) {
         float f = float(slot);
         EXPECT_EQUAL(activeQueue[slot], 3000u + slot);
         EXPECT_EQUAL(shadowQueue[slot], 4000u + slot);
-        EXPECT_EQUAL(queueSizes.shadowGroups.z, 77u);
+        EXPECT_EQUAL(rounds[2].groups.z, 77u);
         EXPECT_EQUAL(fetchRay(slot).source, 5000u + slot);
         EXPECT_EQUAL(fetchShadowRay(slot).target, 6000u + slot);
         EXPECT_EQUAL(fetchHit(slot).primitiveRef, 8000u + slot);
-        pathStates[slot].pdf = fetchState(slot).pdf + f;
-        pathRadiance[slot].clamped = fetchRadiance(slot).clamped + 2.0 * f;
-        pathHits[slot] = PathHit(slot, 3.0 * f, vec2(0.25, 0.5));
-        pathFirstHits[slot] = FirstHit(vec3(0.5), 1.0, vec3(0.0, 1.0, 0.0), 4.0 * f);
+        PathState state = fetchState(slot);
+        state.pdf += f;
+        storeState(slot, state);
+        PathRadiance radiance = fetchRadiance(slot);
+        radiance.clamped += 2.0 * f;
+        storeRadiance(slot, radiance);
+        storeHit(slot, PathHit(slot, 3.0 * f, vec2(0.25, 0.5)));
+        storeFirstHit(slot, FirstHit(vec3(0.5), 1.0, vec3(0.0, 1.0, 0.0), 4.0 * f));
         nextQueue[slot] = 7000u + slot;
-        atomicAdd(queueTails.shadow, 1u);
+        atomicAdd(rounds[1].shadowRays, 1u);
         atomicAdd(rayCounts.closest.y, 2u);
     }
     endTest();

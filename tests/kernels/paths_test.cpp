@@ -40,8 +40,7 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
         BufferKind::Both);
     const Buffer shadowRays = filled<ShadowRay>(
         "shadow rays", [](uint i) { return ShadowRay{vec3(0), 0, vec3(0), 6000 + i, vec3(0), 1.0F}; }, BufferKind::Both);
-    const Buffer sizes =
-        filled<QueueSizes>("queue sizes", [](uint) { return QueueSizes{kSlots, 0, uvec3(0), uvec3(0, 0, 77), uvec3(0), 0}; });
+    const Buffer rounds = filled<Round>("rounds", [](uint i) { return i == 2 ? Round{kSlots, 0, uvec3(0, 0, 77)} : Round{}; });
     const Buffer states = filled<PathState>(
         "states",
         [](uint) {
@@ -54,7 +53,7 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
             return PathRadiance{vec3(1), 0.25F};
         },
         BufferKind::Both);
-    const Buffer tails = zeroed<QueueTails>("queue tails"), counts = zeroed<RayCounts>("ray counts");
+    const Buffer counts = zeroed<RayCounts>("ray counts");
     const Buffer hits = filled<PathHit>(
         "hits",
         [](uint i) {
@@ -68,10 +67,9 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
                   {kBindRays, &rays},
                   {kBindStates, &states},
                   {kBindShadowRays, &shadowRays},
-                  {kBindQueueSizes, &sizes},
+                  {kBindRounds, &rounds},
                   {kBindRadiance, &radiance},
                   {kBindHits, &hits},
-                  {kBindQueueTails, &tails},
                   {kBindRayCounts, &counts},
                   {kBindFirstHits, &firstHits},
                   {kBindNextQueue, &next}});
@@ -84,8 +82,8 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
         EXPECT_EQ(download<FirstHit>(firstHits, kSlots)[i].depth, 4.0F * f);
         EXPECT_EQ(download<uint>(next, kSlots)[i], 7000 + i);
     }
-    EXPECT_EQ(download<QueueTails>(tails, 1)[0].shadow, kSlots);
-    EXPECT_EQ(download<QueueTails>(tails, 1)[0].next, 0U);
+    EXPECT_EQ(download<Round>(rounds, 2)[1].shadowRays, kSlots);
+    EXPECT_EQ(download<Round>(rounds, 2)[1].paths, 0U);
     EXPECT_EQ(download<RayCounts>(counts, 1)[0].closest, uvec2(0, 2 * kSlots));
 }
 

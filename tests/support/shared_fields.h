@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 426u;
+GLIM_CONST uint kSharedWords = 417u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -21,8 +21,7 @@ struct EverySharedStruct {
     FirstHit firstHit;
     ShadowRay shadowRay;
     PathNote note;
-    QueueSizes queueSizes;
-    QueueTails queueTails;
+    Round round;
     RayCounts rayCounts;
     Located located;
     Status status;
@@ -67,8 +66,7 @@ F(note.diffuseTransmission) F(note.clearcoat) F(note.clearcoatRoughness) F3(note
 F(note.iridescence) F(note.filmThickness) F(note.alpha) U(note.medium)
 F(note.lightPdfOfHit) F(note.misWeightOfHit) U(note.light) F(note.lightPdf)
 F(note.bsdfPdf) F(note.misWeightOfLight) U(note.lobe) U(note.lobeFlags) F3(note.weight) F3(note.throughput) F(note.continuation)
-U(queueSizes.closest) U(queueSizes.shadow) U3(queueSizes.closestGroups) U3(queueSizes.shadowGroups) U3(queueSizes.endGroups) U(queueSizes.lastBounce)
-U(queueTails.next) U(queueTails.shadow)
+U(round.paths) U(round.shadowRays) U3(round.groups)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
 U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.mediaCaps) U(status.splatOverflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
@@ -84,7 +82,7 @@ U(blockSums.count) F3(blockSums.radiance) F(blockSums.alpha) F3(blockSums.albedo
 F(blockSums.clamped)
 U2(splat.red) U2(splat.green) U2(splat.blue) U2(splat.clamped)
 U(pass_.pass.tileBegin) U(pass_.pass.firstPixel) U(pass_.pass.pixelCount) U(pass_.pass.firstSample) U(pass_.pass.sampleCount)
-U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.sizes) U(pass_.lightRound.light) U(pass_.lightRound.lightSample)
+U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.round) U(pass_.lightRound.light) U(pass_.lightRound.lightSample)
 U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRef) U(pass_.lightRound.endRef)
 F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)

@@ -10,7 +10,7 @@ void addShareOfRadiance(uint slot, vec3 contribution, uint pathLength)
 {
     if (isLengthInRange(pathLength)) {
         float limit = render.clampIndirect / float(lightRound.lightSamples);
-        pathRadiance[slot] = addLight(fetchRadiance(slot), contribution, pathLength, limit);
+        storeRadiance(slot, addLight(fetchRadiance(slot), contribution, pathLength, limit));
     }
 }
 

@@ -4,12 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
 #define UPDATES_RAYS
 #define READS_HITS
 #define UPDATES_STATES
 #define WRITES_NEXT_QUEUE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #include "access/course/bounce.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
@@ -26,16 +25,16 @@ void visit(uint slot)
     SurfaceMaterial material = makeSurfaceMaterial(si);
     vec3 wo = -ray.direction;
     if (bouncePath(makeSampleId(slot), si, makeBsdf(si, material, wo), wo, 0u, ray, state)) {
-        pathRays[slot] = ray;
-        pathStates[slot] = state;
-        nextQueue[atomicAdd(queueTails.next, 1u)] = slot;
+        storeRay(slot, ray);
+        storeState(slot, state);
+        queuePath(slot);
     }
 }
 
 void main()
 {
     uint entry = interleavedInvocation();
-    if (pass.bounce < render.maxBounces && entry < queueSizes.closest) {
+    if (pass.bounce < render.maxBounces && entry < activePaths()) {
         visit(activeQueue[entry]);
     }
     checkLoopBudget(render.canarySteps);

@@ -4,13 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
 #define READS_RAYS
 #define READS_HITS
 #define READS_STATES
 #define WRITES_SHADOW_RAYS
 #define WRITES_SHADOW_QUEUE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #include "access/course/round.glsl"
 #include "access/bsdf.glsl"
 #include "access/paths.glsl"
@@ -30,8 +29,8 @@ void queueRay(uint slot, SurfaceInteraction si, Bsdf bsdf, vec3 wo)
     if (all(equal(contribution, vec3(0.0)))) {
         return;
     }
-    pathShadowRays[slot] = ShadowRay(offsetRayOrigin(si, wi), si.primitive, wi, kNoPrimitiveRef, contribution, kInfinity);
-    shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
+    storeShadowRay(slot, ShadowRay(offsetRayOrigin(si, wi), si.primitive, wi, kNoPrimitiveRef, contribution, kInfinity));
+    queueShadowRay(slot);
 }
 
 void visit(uint slot)
@@ -52,7 +51,7 @@ void visit(uint slot)
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.closest) {
+    if (entry < activePaths()) {
         visit(activeQueue[entry]);
     }
     checkLoopBudget(render.canarySteps);

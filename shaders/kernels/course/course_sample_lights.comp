@@ -5,7 +5,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
 #define READS_RAYS
 #define READS_HITS
 #define READS_STATES
@@ -13,7 +12,7 @@
 #define WRITES_FIRST_HITS
 #define WRITES_SHADOW_RAYS
 #define WRITES_SHADOW_QUEUE
-#define UPDATES_QUEUE_TAILS
+#define UPDATES_ROUNDS
 #include "access/course/round.glsl"
 #include "access/course/direct_light.glsl"
 #include "access/first_hit.glsl"
@@ -23,7 +22,7 @@
 void visitMiss(uint slot, PathRay ray, PathState state)
 {
     if (pass.bounce == 0u) {
-        pathFirstHits[slot] = makeNoFirstHit();
+        storeFirstHit(slot, makeNoFirstHit());
     }
     if (hasEnvironment()) {
         addRadiance(slot, state.throughput * weightedEnvironment(ray, state), pass.bounce);
@@ -40,7 +39,7 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     noteMaterial(si, hit, material, 0u);
     bool first = lightRound.addsEmission != 0u;
     if (first && pass.bounce == 0u) {
-        pathFirstHits[slot] = makeFirstHit(si, material.data, wo);
+        storeFirstHit(slot, makeFirstHit(si, material.data, wo));
     }
     if (first && hasEmissiveSurfaces()) {
         addRadiance(slot, state.throughput * weightedEmission(si, material.data, ray, hit, state), pass.bounce);
@@ -48,15 +47,15 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     ShadowRay shadow;
     if (lightRound.light != kNoLightIndex && hasNonDelta(bsdf) &&
         sampleLightOfRound(makeSampleId(slot), si, bsdf, wo, state, shadow)) {
-        pathShadowRays[slot] = shadow;
-        shadowQueue[atomicAdd(queueTails.shadow, 1u)] = slot;
+        storeShadowRay(slot, shadow);
+        queueShadowRay(slot);
     }
 }
 
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.closest) {
+    if (entry < activePaths()) {
         uint slot = activeQueue[entry];
         PathHit hit = fetchHit(slot);
         if (hit.primitiveRef != kNoPrimitiveRef) {

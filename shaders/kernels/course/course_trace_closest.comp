@@ -1,12 +1,13 @@
 // One thread is one entry of the active queue. Finds what its ray meets first, by the triangle test that the render asks for. Brute force
 // takes several dispatches, each of which goes on from the closest hit so far.
-// Reads the scene, the queue, rays. Writes hits (brute force also reads them).
+// Reads the scene, the queue, rays. Writes hits (brute force also reads them). Updates rounds, ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define READS_QUEUE_SIZES
+#define UPDATES_ROUNDS
 #define READS_RAYS
 #define UPDATES_HITS
+#define UPDATES_RAY_COUNTS
 #include "access/course/round.glsl"
 #include "access/course/scan.glsl"
 #include "access/paths.glsl"
@@ -24,10 +25,14 @@ PathHit scanRefs(uint slot)
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.closest) {
+    if (entry == 0u && lightRound.firstRef == 0u) {
+        beginRound(1u);
+        countRays(activePaths(), 0u);
+    }
+    if (entry < activePaths()) {
         uint slot = activeQueue[entry];
         Steps uncounted = Steps(0u, 0u);
-        pathHits[slot] = kBruteForce ? scanRefs(slot) : traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), uncounted).hit;
+        storeHit(slot, kBruteForce ? scanRefs(slot) : traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), uncounted).hit);
     }
     checkLoopBudget(render.canarySteps);
 }

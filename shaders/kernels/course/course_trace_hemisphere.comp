@@ -1,12 +1,13 @@
 // One thread is one entry of the shadow queue, filled by course_sample_hemisphere. Adds what its ray meets, if that emits. Brute force
 // takes several dispatches: target and tMax of the ray hold the closest hit so far, and the last dispatch adds the light.
-// Reads the scene, the shadow queue, shadow rays (brute force also writes them). Updates radiance.
+// Reads the scene, the shadow queue, shadow rays (brute force also writes them). Updates radiance, ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_SHADOW_QUEUE
-#define READS_QUEUE_SIZES
+#define READS_ROUNDS
 #define UPDATES_SHADOW_RAYS
 #define UPDATES_RADIANCE
+#define UPDATES_RAY_COUNTS
 #include "access/course/round.glsl"
 #include "access/course/radiance.glsl"
 #include "access/course/scan.glsl"
@@ -30,8 +31,8 @@ vec3 radianceFound(PathRay ray, PathHit hit)
 PathHit scanRefs(uint slot, PathRay ray, ShadowRay soFar)
 {
     PathHit hit = scanClosest(ray, PathHit(soFar.target, soFar.tMax, vec2(0.0)), lightRound.firstRef, lightRound.endRef);
-    pathShadowRays[slot].target = hit.primitiveRef;
-    pathShadowRays[slot].tMax = hit.t;
+    shadowRayWords[3u * slot + 1u].w = hit.primitiveRef;
+    shadowRayWords[3u * slot + 2u].w = floatBitsToUint(hit.t);
     return hit;
 }
 
@@ -50,7 +51,10 @@ void visit(uint slot)
 void main()
 {
     uint entry = interleavedInvocation();
-    if (entry < queueSizes.shadow) {
+    if (entry == 0u && lightRound.firstRef == 0u) {
+        countRays(0u, activeShadowRays());
+    }
+    if (entry < activeShadowRays()) {
         visit(shadowQueue[entry]);
     }
     checkLoopBudget(render.canarySteps);
