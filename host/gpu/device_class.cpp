@@ -19,7 +19,7 @@ const ClassRules& rulesOf(DeviceClass deviceClass)
         {.persistent = true, .pathCapacity = 1U << 18, .pathsPerThread = 16, .sharedStack = false},
         {.persistent = false, .pathCapacity = 1U << 18, .pathsPerThread = 16, .sharedStack = false},
         {.persistent = false, .pathCapacity = 1U << 20, .pathsPerThread = 2, .sharedStack = true},
-        {.persistent = false, .pathCapacity = 1U << 23, .pathsPerThread = 1, .sharedStack = true},
+        {.persistent = false, .pathCapacity = 1U << 24, .pathsPerThread = 1, .sharedStack = true},
     };
     return kRules[static_cast<std::size_t>(deviceClass)];
 }

@@ -21,7 +21,8 @@ struct ClassRules {
     // compile trace_paths.
     bool persistent;
     // Paths in flight, unless the device has less room. An H100 holds 270,336 threads, and was 6.6 to 7 times as fast with 2^22 as with
-    // 2^18, and in the Cornell box 1.11 times as fast with 2^23 as with 2^22. A CPU needs only what fills its vectors.
+    // 2^18; in the Cornell box it was 1.11 times as fast with 2^23 as with 2^22, and 1.04 times with 2^24 as with 2^23. A CPU needs only
+    // what fills its vectors.
     std::uint32_t pathCapacity;
     // Paths that a thread of trace_paths and trace_light_paths takes, one after the other. On a CPU it spares starting threads; on a GPU it
     // leaves threads without work.
@@ -31,7 +32,7 @@ struct ClassRules {
     bool sharedStack;
 };
 
-// Paths in flight take no more than this part of a device's memory: 16 GiB have room for 2^23, 8 GiB for 2^22.
+// Paths in flight take no more than this part of a device's memory: 32 GiB have room for 2^24, 16 GiB for 2^23.
 inline constexpr std::uint64_t kPathPart = 10;
 
 DeviceClass classify(VkPhysicalDeviceType type, VkDriverId driver);

@@ -31,7 +31,7 @@ CourseEstimators::CourseEstimators(Device& device, const FlatScene& scene, const
 void CourseEstimators::recordBounce(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
                                     const Buffer& passRounds) const
 {
-    recordTrace(recording, *kernels.course.traceClosest, bindings, {pass, {}}, passRounds);
+    recordTrace(recording, *kernels.course.traceClosest, bindings, {pass, {}}, passRounds, groupsOfPaths(pass.round));
     const PathLengths lengths = pathLengths(settings_);
     const std::vector<LightRound> finding = {{false, kNoLightIndex}};
     CoursePass round{pass, {}};
@@ -43,7 +43,7 @@ void CourseEstimators::recordBounce(Recording& recording, const KernelSet& kerne
         recordRound(recording, kernels, bindings, round, each.hemisphere, passRounds);
         round.lightRound.addsEmission = 0;
     }
-    recording.dispatchIndirect(*kernels.course.bounce, bindings, CoursePass{pass, {}}, passRounds, groupsOf(pass.round));
+    recording.dispatchIndirect(*kernels.course.bounce, bindings, CoursePass{pass, {}}, passRounds, groupsOfPaths(pass.round));
 }
 
 void CourseEstimators::recordRound(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const CoursePass& round,
@@ -52,23 +52,24 @@ void CourseEstimators::recordRound(Recording& recording, const KernelSet& kernel
     const Kernel& sample = hemisphere ? *kernels.course.sampleHemisphere : *kernels.course.sampleLights;
     const bool traces = hemisphere || round.lightRound.light != kNoLightIndex;
     if (traces) {  // the shadow rays of the round of direct light before are done
-        constexpr uint kNone = 0;
-        recording.write(passRounds, round.pass.round * sizeof(Round) + offsetof(Round, shadowRays), std::span<const uint>(&kNone, 1));
+        const Queue empty = makeRounds(0, 0)[0].shadowRays;
+        recording.write(passRounds, round.pass.round * sizeof(Round) + offsetof(Round, shadowRays), std::span<const Queue>(&empty, 1));
     }
-    recording.dispatchIndirect(sample, bindings, round, passRounds, groupsOf(round.pass.round));
+    recording.dispatchIndirect(sample, bindings, round, passRounds, groupsOfPaths(round.pass.round));
     if (traces) {
-        recordTrace(recording, hemisphere ? *kernels.course.traceHemisphere : *kernels.course.traceShadow, bindings, round, passRounds);
+        recordTrace(recording, hemisphere ? *kernels.course.traceHemisphere : *kernels.course.traceShadow, bindings, round, passRounds,
+                    groupsOfShadowRays(round.pass.round));
     }
 }
 
 void CourseEstimators::recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round,
-                                   const Buffer& passRounds) const
+                                   const Buffer& passRounds, std::uint64_t groupsOffset) const
 {
     const bool bruteForce = settings_.course.accelerator == Accelerator::None;
     const std::uint32_t step = bruteForce ? kScanPrimitiveRefs : refCount_;
     for (round.lightRound.firstRef = 0; round.lightRound.firstRef < refCount_; round.lightRound.firstRef += step) {
         round.lightRound.endRef = std::min(refCount_, round.lightRound.firstRef + step);
-        recording.dispatchIndirect(kernel, bindings, round, passRounds, groupsOf(round.pass.round));
+        recording.dispatchIndirect(kernel, bindings, round, passRounds, groupsOffset);
     }
 }
 

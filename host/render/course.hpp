@@ -28,9 +28,9 @@ public:
 
     void recordBounce(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
                       const Buffer& passRounds) const;
-    // course_trace_closest or course_trace_shadow alone.
-    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round,
-                     const Buffer& passRounds) const;
+    // course_trace_closest or course_trace_shadow alone, over the queue whose group counts are at groupsOffset in passRounds.
+    void recordTrace(Recording& recording, const Kernel& kernel, const Bindings& bindings, CoursePass round, const Buffer& passRounds,
+                     std::uint64_t groupsOffset) const;
     // Once no path is alive: updates the luminance statistics of --adaptive course.
     void recordLuminance(Recording& recording, const KernelSet& kernels, const Bindings& bindings, const Pass& pass,
                          std::uint32_t groups) const;

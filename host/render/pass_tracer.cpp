@@ -15,8 +15,7 @@
 //
 // Caustics: trace_light_paths, and again for paths that were too long for one dispatch, for each sample of the picture; then add_splats.
 //
-// The host empties the queues of all rounds that it records. Paths become fewer, so the first thread of a round sets the workgroups of the
-// next one to what its own paths need.
+// The host empties the queues of all rounds that it records; kernels count the workgroups that a queue needs as they fill it.
 //
 // AOVs insert show_aov before accumulate. The course's estimators have bounces of their own (course.hpp).
 #include "host/render/pass_tracer.hpp"
@@ -35,7 +34,7 @@ constexpr std::uint32_t kMoreBounces = 8;
 // The first rounds of those recorded at once that had a path.
 std::uint32_t countRounds(const std::vector<Round>& rounds)
 {
-    const auto empty = std::find_if(rounds.begin(), rounds.end(), [](const Round& round) { return round.paths == 0; });
+    const auto empty = std::find_if(rounds.begin(), rounds.end(), [](const Round& round) { return round.paths.count == 0; });
     return static_cast<std::uint32_t>(empty - rounds.begin());
 }
 
@@ -87,7 +86,7 @@ bool PassTracer::traceToEnd(Recording& recording, const Tile& tile, Pass pass, c
         const bool isWhole = !recording.isStopped();
         recording.finish();
         const std::vector<Round> traced = resources_.paths().readRounds();
-        alive = traced[pass.round].paths;
+        alive = traced[pass.round].paths.count;
         if (isWhole && alive == 0) {
             // Of many paths the longest varies by a few surfaces.
             const std::uint32_t needed = before + countRounds(traced);
@@ -122,18 +121,18 @@ void PassTracer::recordRound(Recording& recording, const Bindings& bindings, con
 {
     const Buffer& rounds = resources_.paths().rounds();
     if (kernels().tracePaths) {
-        recording.dispatchIndirect(*kernels().tracePaths, bindings, pass, rounds, groupsOf(pass.round));
+        recording.dispatchIndirect(*kernels().tracePaths, bindings, pass, rounds, groupsOfPaths(pass.round));
         return;
     }
     if (usesCourseEstimators(resources_.settings)) {
         resources_.course.recordBounce(recording, kernels(), bindings, pass, rounds);
         return;
     }
-    recording.dispatchIndirect(*kernels().traceClosest, bindings, pass, rounds, groupsOf(pass.round));
-    recording.dispatchIndirect(*kernels().shadeSurface, bindings, pass, rounds, groupsOf(pass.round));
+    recording.dispatchIndirect(*kernels().traceClosest, bindings, pass, rounds, groupsOfPaths(pass.round));
+    recording.dispatchIndirect(*kernels().shadeSurface, bindings, pass, rounds, groupsOfPaths(pass.round));
     const PathLengths lengths = pathLengths(resources_.settings);
     if (samplesLights(pass.bounce, lengths.maxBounces, lengths.min, resources_.lightCount)) {
-        recording.dispatchIndirect(*kernels().traceShadow, bindings, pass, rounds, groupsOf(pass.round));
+        recording.dispatchIndirect(*kernels().traceShadow, bindings, pass, rounds, groupsOfShadowRays(pass.round));
     }
 }
 
@@ -151,9 +150,9 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer::Band& band,
     for (std::uint32_t alive = count; alive > 0 && !recording.isStopped(); ++pass.bounce) {
         recordRounds(recording, alive, share);
         recording.dispatchIndirect(*kernels().traceLightPaths, band.bindings(1 - pass.bounce % 2), pass, resources_.paths().rounds(),
-                                   groupsOf(0));
+                                   groupsOfPaths(0));
         recording.finish();
-        alive = resources_.paths().readRounds()[1].paths;
+        alive = resources_.paths().readRounds()[1].paths.count;
     }
     if (recording.isStopped()) {
         return std::nullopt;

@@ -60,8 +60,9 @@ std::vector<BindingSlot> kernelSlots()
 
 std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups)
 {
-    std::vector<Round> rounds(kEmptyRound + 1, Round{0, 0, uvec3(0, 1, 1)});
-    rounds[0] = {paths, 0, uvec3(groups, 1, 1)};
+    constexpr Queue kEmpty{0, uvec3(0, 1, 1)};
+    std::vector<Round> rounds(kEmptyRound + 1, Round{kEmpty, kEmpty});
+    rounds[0].paths = {paths, uvec3(groups, 1, 1)};
     return rounds;
 }
 
@@ -140,8 +141,8 @@ void PathBuffers::queueRays(std::span<const PathRay> rays, std::uint32_t groups)
 
 void PathBuffers::queueShadowRays(std::span<const ShadowRay> rays, std::uint32_t groups)
 {
-    std::vector<Round> rounds = makeRounds(0, groups);
-    rounds[0].shadowRays = static_cast<uint>(rays.size());
+    std::vector<Round> rounds = makeRounds(0, 0);
+    rounds[0].shadowRays = {static_cast<uint>(rays.size()), uvec3(groups, 1, 1)};
     setRounds(rounds);
     std::vector<ShadowRay> light(rays.begin(), rays.end());
     for (ShadowRay& ray : light) {

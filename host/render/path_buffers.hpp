@@ -23,7 +23,14 @@ std::vector<BindingSlot> kernelSlots();
 // Rounds of which only the first has paths, for `groups` workgroups.
 std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups);
 // Where the group counts of a round are, in bytes from the start of the rounds.
-constexpr std::uint64_t groupsOf(std::uint32_t round) { return round * sizeof(Round) + offsetof(Round, groups); }
+constexpr std::uint64_t groupsOfPaths(std::uint32_t round)
+{
+    return round * sizeof(Round) + offsetof(Round, paths) + offsetof(Queue, groups);
+}
+constexpr std::uint64_t groupsOfShadowRays(std::uint32_t round)
+{
+    return round * sizeof(Round) + offsetof(Round, shadowRays) + offsetof(Queue, groups);
+}
 
 // The most paths that a device's limits have room for.
 std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device);

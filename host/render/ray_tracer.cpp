@@ -6,14 +6,14 @@
 namespace glim {
 
 void RayTracer::recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course,
-                            const Pass& pass) const
+                            const Pass& pass, std::uint64_t groupsOffset) const
 {
     if (usesCourseEstimators(resources_.settings)) {
         CoursePass round{pass, {}};
         round.lightRound.lightSamples = 1;
-        resources_.course.recordTrace(recording, course.value(), tile_->bindings(0), round, resources_.paths().rounds());
+        resources_.course.recordTrace(recording, course.value(), tile_->bindings(0), round, resources_.paths().rounds(), groupsOffset);
     } else {
-        recording.dispatchIndirect(production.value(), tile_->bindings(0), pass, resources_.paths().rounds(), groupsOf(0));
+        recording.dispatchIndirect(production.value(), tile_->bindings(0), pass, resources_.paths().rounds(), groupsOffset);
     }
 }
 
@@ -24,7 +24,7 @@ std::vector<PathHit> RayTracer::trace(std::span<const PathRay> rays)
     pass.pixelCount = static_cast<std::uint32_t>(rays.size());
     pass.sampleCount = 1;
     Recording recording(resources_.device, resources_.statistics);
-    recordTrace(recording, resources_.kernels().traceClosest, resources_.kernels().course.traceClosest, pass);
+    recordTrace(recording, resources_.kernels().traceClosest, resources_.kernels().course.traceClosest, pass, groupsOfPaths(0));
     recording.finish();
     return download<PathHit>(resources_.paths().hits(), rays.size());
 }
@@ -36,7 +36,7 @@ std::vector<bool> RayTracer::trace(std::span<const ShadowRay> rays)
     pass.pixelCount = static_cast<std::uint32_t>(rays.size());
     pass.sampleCount = 1;
     Recording recording(resources_.device, resources_.statistics);
-    recordTrace(recording, resources_.kernels().traceShadow, resources_.kernels().course.traceShadow, pass);
+    recordTrace(recording, resources_.kernels().traceShadow, resources_.kernels().course.traceShadow, pass, groupsOfShadowRays(0));
     recording.finish();
     const std::vector<PathRadiance> found = download<PathRadiance>(resources_.paths().radiance(), rays.size());
     std::vector<bool> free(rays.size());

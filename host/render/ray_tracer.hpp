@@ -19,8 +19,8 @@ public:
     std::vector<bool> trace(std::span<const ShadowRay> rays);
 
 private:
-    void recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course,
-                     const Pass& pass) const;
+    void recordTrace(Recording& recording, const std::optional<Kernel>& production, const std::optional<Kernel>& course, const Pass& pass,
+                     std::uint64_t groupsOffset) const;
 
     RenderResources& resources_;
     std::unique_ptr<Tile> tile_;  // kernels want one; its pixels do not matter

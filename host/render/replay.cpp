@@ -28,7 +28,7 @@ public:
     {
         const bool whole = at.lightRound.endRef == refCount_;  // brute force: the last of several dispatches
         if (kernel == "trace_closest" || (kernel == "course_trace_closest" && whole)) {
-            alive_ = paths.readRounds()[at.pass.round].paths > 0;
+            alive_ = paths.readRounds()[at.pass.round].paths.count > 0;
             if (alive_) {
                 beginVertex(at.pass, paths);
             }
@@ -81,7 +81,7 @@ private:
 
     void takeTraced(const Pass& pass, PathBuffers& paths)
     {
-        if (paths.readRounds()[pass.round].shadowRays > 0) {
+        if (paths.readRounds()[pass.round].shadowRays.count > 0) {
             SampledLight& last = vertices_.back().sampledLights.back();
             last.hasShadowRay = true;
             last.ray = ray_;
@@ -94,7 +94,7 @@ private:
         PathVertex& vertex = vertices_.back();
         vertex.bsdf = note;
         vertex.after = firstOf<PathState>(paths.states());
-        const bool continues = paths.readRounds()[pass.round + 1].paths > 0;
+        const bool continues = paths.readRounds()[pass.round + 1].paths.count > 0;
         vertex.end = continues                                    ? PathEnd::Continues
                      : vertex.hit.primitiveRef == kNoPrimitiveRef ? PathEnd::Missed
                      : pass.bounce == maxBounces_                 ? PathEnd::LastBounce

@@ -105,11 +105,11 @@ void traceShare(uint entry, uint end, inout Work work)
         storeRay(path.slot, path.ray);
         storeState(path.slot, path.state);
         storeRadiance(path.slot, path.light);
-        queuePath(path.slot);
+        queuePath(path.slot, kPathsPerThread);
         entry += kNeighbours;
     }
     for (; entry < end; entry += kNeighbours) {
-        queuePath(fetchEntry(entry));
+        queuePath(fetchEntry(entry), kPathsPerThread);
     }
 }
 
@@ -117,7 +117,7 @@ void traceQueue()
 {
     uint thread = interleavedInvocation();
     if (thread == 0u) {
-        beginRound(kPathsPerThread);
+        checkPaths();
     }
     uint lane = thread % kNeighbours;
     uint begin = (thread - lane) * kPathsPerThread;

@@ -15,23 +15,33 @@ layout(set = 0, binding = kBindRounds, scalar) readonly buffer RoundsBuffer { Ro
 #if defined(READS_ROUNDS) || defined(UPDATES_ROUNDS)
 uint activePaths()
 {
-    return min(rounds[pass.round].paths, pass.pixelCount * pass.sampleCount);
+    return min(rounds[pass.round].paths.count, pass.pixelCount * pass.sampleCount);
 }
 
 uint activeShadowRays()
 {
-    return min(rounds[pass.round].shadowRays, pass.pixelCount * pass.sampleCount);
+    return min(rounds[pass.round].shadowRays.count, pass.pixelCount * pass.sampleCount);
+}
+
+// One thread of a dispatch calls this. A kernel queues each slot at most once, so a longer queue has lost entries or counted some twice.
+void checkPaths()
+{
+    reportOverflow(rounds[pass.round].paths.count - activePaths());
+}
+
+void checkShadowRays()
+{
+    reportOverflow(rounds[pass.round].shadowRays.count - activeShadowRays());
 }
 #endif
 
 #if defined(UPDATES_ROUNDS)
-// One thread of the first dispatch of a round calls this. `share`: paths that a thread takes. A kernel queues each slot at most once, so a
-// longer queue has lost entries or counted some twice.
-void beginRound(uint share)
+// A queue asks for so many workgroups at once, whenever the last ones are full: so few entries add to their number.
+const uint kGroupsAtOnce = 8u;
+
+bool needsGroups(uint entry, uint share)
 {
-    uint paths = activePaths(), ofGroup = gl_WorkGroupSize.x * share;
-    rounds[pass.round + 1u].groups.x = (paths + ofGroup - 1u) / ofGroup;
-    reportOverflow(rounds[pass.round].paths - paths);
+    return entry % (kGroupsAtOnce * gl_WorkGroupSize.x * share) == 0u;
 }
 #endif
 
@@ -43,9 +53,14 @@ layout(set = 0, binding = kBindActiveQueue, scalar) readonly buffer ActiveQueueB
 layout(set = 0, binding = kBindNextQueue, scalar) writeonly buffer NextQueueBuffer { uint nextQueue[]; };
 
 #if defined(UPDATES_ROUNDS)
-void queuePath(uint entry)
+// `share`: paths that a thread of the next round takes.
+void queuePath(uint slot, uint share)
 {
-    nextQueue[atomicAdd(rounds[pass.round + 1u].paths, 1u)] = entry;
+    uint entry = atomicAdd(rounds[pass.round + 1u].paths.count, 1u);
+    nextQueue[entry] = slot;
+    if (needsGroups(entry, share)) {
+        atomicAdd(rounds[pass.round + 1u].paths.groups.x, kGroupsAtOnce);
+    }
 }
 #endif
 #endif
@@ -57,7 +72,11 @@ layout(set = 0, binding = kBindShadowQueue, scalar) writeonly buffer ShadowQueue
 
 void queueShadowRay(uint slot)
 {
-    shadowQueue[atomicAdd(rounds[pass.round].shadowRays, 1u)] = slot;
+    uint entry = atomicAdd(rounds[pass.round].shadowRays.count, 1u);
+    shadowQueue[entry] = slot;
+    if (needsGroups(entry, 1u)) {
+        atomicAdd(rounds[pass.round].shadowRays.groups.x, kGroupsAtOnce);
+    }
 }
 #endif
 

@@ -45,7 +45,7 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     if (vertex.hasNextRay) {
         storeRay(slot, vertex.ray);
         storeState(slot, vertex.state);
-        queuePath(slot);
+        queuePath(slot, 1u);
     }
 }
 

@@ -1,9 +1,9 @@
 // One thread is one entry of the active queue. Finds what its ray meets first.
-// Reads the scene, the queue, rays. Writes hits. Updates states, rounds, ray counts.
+// Reads the scene, the queue, rays. Writes hits. Updates states, ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define UPDATES_ROUNDS
+#define READS_ROUNDS
 #define READS_RAYS
 #define WRITES_HITS
 #define UPDATES_STATES
@@ -16,7 +16,7 @@ void main()
 {
     uint entry = interleavedInvocation();
     if (entry == 0u) {
-        beginRound(1u);
+        checkPaths();
         countRays(activePaths(), 0u);
     }
     if (entry < activePaths()) {

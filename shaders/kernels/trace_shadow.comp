@@ -15,6 +15,7 @@ void main()
 {
     uint entry = interleavedInvocation();
     if (entry == 0u) {
+        checkShadowRays();
         countRays(0u, activeShadowRays());
     }
     if (entry < activeShadowRays()) {

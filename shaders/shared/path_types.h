@@ -86,10 +86,16 @@ struct PathNote {
     float continuation;  // roulette's probability to continue; 0: the path ended before
 };
 
+// How many entries a queue has, and workgroups enough for a dispatch over it (indirect arguments).
+struct Queue {
+    uint count;
+    uvec3 groups;
+};
+
 // What a pass traces in one round: a bounce of the wavefront, or a dispatch of trace_paths.
 struct Round {
-    uint paths, shadowRays;  // entries of their queues
-    uvec3 groups;  // workgroups of its dispatches (indirect arguments): enough for the paths of the round before, which are no fewer
+    Queue paths;
+    Queue shadowRays;
 };
 
 // Rounds that are recorded at once, at most. The kernels of the last one queue paths for the round after it.

@@ -44,7 +44,7 @@ TEST(PathCapacityChoiceTest, IsThatOfTheClass)
     EXPECT_EQ(of(DeviceClass::Llvmpipe), 1U << 18U);
     EXPECT_EQ(of(DeviceClass::Software), 1U << 18U);
     EXPECT_EQ(of(DeviceClass::SharedGpu), 1U << 20U);
-    EXPECT_EQ(of(DeviceClass::DiscreteGpu), 1U << 23U);
+    EXPECT_EQ(of(DeviceClass::DiscreteGpu), 1U << 24U);
 }
 
 // Each bound alone, with a power of two of paths.

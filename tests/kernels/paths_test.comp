@@ -19,11 +19,11 @@
 void main()
 {
     uint slot = TEST_THREAD;
-    if (slot < rounds[2].paths) {
+    if (slot < rounds[2].paths.count) {
         float f = float(slot);
         EXPECT_EQUAL(activeQueue[slot], 3000u + slot);
         EXPECT_EQUAL(shadowQueue[slot], 4000u + slot);
-        EXPECT_EQUAL(rounds[2].groups.z, 77u);
+        EXPECT_EQUAL(rounds[2].shadowRays.groups.z, 77u);
         EXPECT_EQUAL(fetchRay(slot).source, 5000u + slot);
         EXPECT_EQUAL(fetchShadowRay(slot).target, 6000u + slot);
         EXPECT_EQUAL(fetchHit(slot).primitiveRef, 8000u + slot);
@@ -36,7 +36,7 @@ void main()
         storeHit(slot, PathHit(slot, 3.0 * f, vec2(0.25, 0.5)));
         storeFirstHit(slot, FirstHit(vec3(0.5), 1.0, vec3(0.0, 1.0, 0.0), 4.0 * f));
         nextQueue[slot] = 7000u + slot;
-        atomicAdd(rounds[1].shadowRays, 1u);
+        atomicAdd(rounds[1].shadowRays.count, 1u);
         atomicAdd(rayCounts.closest.y, 2u);
     }
     endTest();

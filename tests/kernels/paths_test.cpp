@@ -40,7 +40,9 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
         BufferKind::Both);
     const Buffer shadowRays = filled<ShadowRay>(
         "shadow rays", [](uint i) { return ShadowRay{vec3(0), 0, vec3(0), 6000 + i, vec3(0), 1.0F}; }, BufferKind::Both);
-    const Buffer rounds = filled<Round>("rounds", [](uint i) { return i == 2 ? Round{kSlots, 0, uvec3(0, 0, 77)} : Round{}; });
+    const Buffer rounds = filled<Round>("rounds", [](uint i) {
+        return i == 2 ? Round{{kSlots, uvec3(0)}, {0, uvec3(0, 0, 77)}} : Round{};
+    });
     const Buffer states = filled<PathState>(
         "states",
         [](uint) {
@@ -82,8 +84,8 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
         EXPECT_EQ(download<FirstHit>(firstHits, kSlots)[i].depth, 4.0F * f);
         EXPECT_EQ(download<uint>(next, kSlots)[i], 7000 + i);
     }
-    EXPECT_EQ(download<Round>(rounds, 2)[1].shadowRays, kSlots);
-    EXPECT_EQ(download<Round>(rounds, 2)[1].paths, 0U);
+    EXPECT_EQ(download<Round>(rounds, 2)[1].shadowRays.count, kSlots);
+    EXPECT_EQ(download<Round>(rounds, 2)[1].paths.count, 0U);
     EXPECT_EQ(download<RayCounts>(counts, 1)[0].closest, uvec2(0, 2 * kSlots));
 }
 

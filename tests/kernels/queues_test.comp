@@ -1,4 +1,4 @@
-// Each thread queues an entry for the next round, and every third one a shadow ray. Thread 0 begins the round.
+// Each thread queues an entry for the next round, and every third one a shadow ray. Thread 0 counts the rays of the round.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_NEXT_QUEUE
@@ -14,12 +14,12 @@ void main()
 {
     if (isTestThread()) {
         uint share = shares[TEST_THREAD];
-        queuePath(1000u + TEST_THREAD);
+        queuePath(1000u + TEST_THREAD, share);
         if (TEST_THREAD % 3u == 0u) {
             queueShadowRay(TEST_THREAD);
         }
         if (TEST_THREAD == 0u) {
-            beginRound(share);
+            checkPaths();
             countRays(activePaths(), activePaths() + 1u);
         }
         EXPECT_TRUE(share > 0u);

@@ -55,8 +55,8 @@ TEST(QueuesTest, EveryEntryIsThereOnce)
     for (const std::uint32_t threads : {1U, kGroupSize + 1, 5000U}) {
         const Outcome outcome = run(threads, 1, 4, makeRounds(0, 0));
         const std::uint32_t shadowRays = (threads + 2) / 3;
-        EXPECT_EQ(outcome.rounds[5].paths, threads);
-        EXPECT_EQ(outcome.rounds[4].shadowRays, shadowRays);
+        EXPECT_EQ(outcome.rounds[5].paths.count, threads);
+        EXPECT_EQ(outcome.rounds[4].shadowRays.count, shadowRays);
         std::vector<uint> all(threads);
         std::iota(all.begin(), all.end(), 1000U);
         EXPECT_EQ(sorted(outcome.next, threads), all);
@@ -66,18 +66,21 @@ TEST(QueuesTest, EveryEntryIsThereOnce)
     }
 }
 
-// So that they suffice for paths that become fewer.
-TEST(QueuesTest, TheNextRoundHasTheWorkgroupsThatThisOnesPathsNeed)
+std::uint32_t needed(std::uint32_t entries, std::uint32_t share) { return (entries + share * kGroupSize - 1) / (share * kGroupSize); }
+
+// At least as many as their entries need, and fewer than kGroupsAtOnce more.
+TEST(QueuesTest, CountWorkgroupsAsTheyGrow)
 {
+    constexpr std::uint32_t kGroupsAtOnce = 8, kEntries = kGroupsAtOnce * kGroupSize;  // queues.glsl's
     for (const std::uint32_t share : {1U, 3U}) {
-        for (const std::uint32_t paths : {0U, 1U, kGroupSize - 1, kGroupSize, kGroupSize + 1, 3 * kGroupSize, 1000U}) {
-            SCOPED_TRACE(std::to_string(paths) + " paths, share " + std::to_string(share));
-            std::vector<Round> before = makeRounds(0, 0);
-            before[2].paths = paths;
-            const Outcome outcome = run(1000, share, 2, before);
-            EXPECT_EQ(outcome.rounds[3].groups, uvec3((paths + share * kGroupSize - 1) / (share * kGroupSize), 1, 1));
-            EXPECT_EQ(outcome.rounds[2].groups, uvec3(0, 1, 1));
-            EXPECT_EQ(outcome.overflows, 0U);
+        for (const std::uint32_t threads : {1U, kGroupSize, kEntries - 1, kEntries, kEntries + 1, 3 * kEntries, 3 * kEntries + 1, 5000U}) {
+            SCOPED_TRACE(std::to_string(threads) + " threads, share " + std::to_string(share));
+            const Outcome outcome = run(threads, share, 4, makeRounds(0, 0));
+            const auto expect = [](const Queue& queue, std::uint32_t groups) {
+                EXPECT_EQ(queue.groups, uvec3((groups + kGroupsAtOnce - 1) / kGroupsAtOnce * kGroupsAtOnce, 1, 1));
+            };
+            expect(outcome.rounds[5].paths, needed(threads, share));
+            expect(outcome.rounds[4].shadowRays, needed((threads + 2) / 3, 1));
         }
     }
 }
@@ -85,9 +88,9 @@ TEST(QueuesTest, TheNextRoundHasTheWorkgroupsThatThisOnesPathsNeed)
 TEST(QueuesTest, GoOnWhereTheyWere)
 {
     std::vector<Round> before = makeRounds(0, 0);
-    before[1].paths = 7;
+    before[1].paths.count = 7;
     const Outcome outcome = run(2, 1, 0, before);
-    EXPECT_EQ(outcome.rounds[1].paths, 9U);
+    EXPECT_EQ(outcome.rounds[1].paths.count, 9U);
     EXPECT_EQ(sorted({outcome.next[7], outcome.next[8]}, 2), (std::vector<uint>{1000, 1001}));
 }
 
@@ -95,9 +98,10 @@ TEST(QueuesTest, OtherRoundsStayAsTheyWere)
 {
     const Outcome outcome = run(100, 1, 4, makeRounds(7, 1));
     for (std::uint32_t round = 0; round <= kEmptyRound; ++round) {
-        EXPECT_EQ(outcome.rounds[round].paths, round == 0 ? 7U : round == 5 ? 100U : 0U);
-        EXPECT_EQ(outcome.rounds[round].shadowRays, round == 4 ? 34U : 0U);
-        EXPECT_EQ(outcome.rounds[round].groups, uvec3(round == 0 ? 1 : 0, 1, 1));
+        EXPECT_EQ(outcome.rounds[round].paths.count, round == 0 ? 7U : round == 5 ? 100U : 0U);
+        EXPECT_EQ(outcome.rounds[round].shadowRays.count, round == 4 ? 34U : 0U);
+        EXPECT_EQ(outcome.rounds[round].paths.groups, uvec3(round == 0 ? 1 : round == 5 ? 8 : 0, 1, 1));
+        EXPECT_EQ(outcome.rounds[round].shadowRays.groups, uvec3(round == 4 ? 8 : 0, 1, 1));
     }
 }
 

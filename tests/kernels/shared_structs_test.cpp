@@ -10,7 +10,7 @@ namespace {
 
 // Words, all of them named in shared_fields.h, without padding.
 static_assert(sizeof(PathRay) == 32 && sizeof(PathHit) == 16 && sizeof(PathState) == 32 && sizeof(PathRadiance) == 16);
-static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(Round) == 20);
+static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(Round) == 32);
 static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 24 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Splat) == 32 && sizeof(Pass) == 32 && sizeof(PixelMoments) == 68);
 static_assert(sizeof(PathNote) == 172 && sizeof(BrightestSample) == 8);

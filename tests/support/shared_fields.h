@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 417u;
+GLIM_CONST uint kSharedWords = 420u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -66,7 +66,7 @@ F(note.diffuseTransmission) F(note.clearcoat) F(note.clearcoatRoughness) F3(note
 F(note.iridescence) F(note.filmThickness) F(note.alpha) U(note.medium)
 F(note.lightPdfOfHit) F(note.misWeightOfHit) U(note.light) F(note.lightPdf)
 F(note.bsdfPdf) F(note.misWeightOfLight) U(note.lobe) U(note.lobeFlags) F3(note.weight) F3(note.throughput) F(note.continuation)
-U(round.paths) U(round.shadowRays) U3(round.groups)
+U(round.paths.count) U3(round.paths.groups) U(round.shadowRays.count) U3(round.shadowRays.groups)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
 U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.mediaCaps) U(status.splatOverflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)

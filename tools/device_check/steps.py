@@ -179,7 +179,7 @@ class Check:
 
     def rays_of(self, runner, scene):
         path = runner.path("films", "rays.json")
-        outcome = runner.run([self.program("glim"), "bench", self.scene(scene), "--kernels", "--size", "2048x2048", "-o", path,
+        outcome = runner.run([self.program("glim"), "bench", self.scene(scene), "--kernels", "--size", "1024x1024", "-o", path,
                               "--progress", "none", *self.device_words()])
         if outcome.code != 0:
             return {"failed": outcome.reason()}

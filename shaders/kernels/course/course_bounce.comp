@@ -27,7 +27,7 @@ void visit(uint slot)
     if (bouncePath(makeSampleId(slot), si, makeBsdf(si, material, wo), wo, 0u, ray, state)) {
         storeRay(slot, ray);
         storeState(slot, state);
-        queuePath(slot);
+        queuePath(slot, 1u);
     }
 }
 

@@ -1,10 +1,10 @@
 // One thread is one entry of the active queue. Finds what its ray meets first, by the triangle test that the render asks for. Brute force
 // takes several dispatches, each of which goes on from the closest hit so far.
-// Reads the scene, the queue, rays. Writes hits (brute force also reads them). Updates rounds, ray counts.
+// Reads the scene, the queue, rays. Writes hits (brute force also reads them). Updates ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
-#define UPDATES_ROUNDS
+#define READS_ROUNDS
 #define READS_RAYS
 #define UPDATES_HITS
 #define UPDATES_RAY_COUNTS
@@ -26,7 +26,7 @@ void main()
 {
     uint entry = interleavedInvocation();
     if (entry == 0u && lightRound.firstRef == 0u) {
-        beginRound(1u);
+        checkPaths();
         countRays(activePaths(), 0u);
     }
     if (entry < activePaths()) {

@@ -26,6 +26,7 @@ void main()
 {
     uint entry = interleavedInvocation();
     if (entry == 0u && lightRound.firstRef == 0u) {
+        checkShadowRays();
         countRays(0u, activeShadowRays());
     }
     if (entry < activeShadowRays()) {
