@@ -162,10 +162,11 @@ set(onlyInCi
     LightChoiceTest.H14AMillionLights
     GltfFuzz.SurvivesMutantsOfPoses
     GltfFuzz.SurvivesMutantsOfBinaryFiles
-    # The reference of the glTF material, PLY files of every kind, and the errors of eleven more denoised pictures. By default: the unit
-    # kernels that compare values with that reference, to_gltf with a file of each format, and one denoised picture.
+    # The reference of the glTF material, PLY and Collada files of every kind, and the errors of eleven more denoised pictures. By default:
+    # the unit kernels that compare values with that reference, to_gltf with OBJ files, and one denoised picture.
     OracleTest
     ToGltfPlyTest
+    ToGltfColladaTest
     Blurs/DenoisedErrorTest.*
     # Farms of several processes, folders for other machines, SPIR-V's optimizer for each feature,
     # and the module for Python beside the command line. By default: what farms keep in files, and films in Python.

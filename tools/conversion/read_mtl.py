@@ -3,13 +3,13 @@ files without a word."""
 
 import os
 
+from conversion.embed_images import ImageEmbedder
 from conversion.errors import ConversionError
 from conversion.read_obj import without_comment
 
 # What a map's file name may follow: options with so many words each.
 MAP_OPTIONS = {"-blendu": 1, "-blendv": 1, "-bm": 1, "-boost": 1, "-cc": 1, "-clamp": 1, "-imfchan": 1, "-mm": 2, "-o": 3, "-s": 3,
                "-t": 3, "-texres": 1, "-type": 1}
-MIMES = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg", b"RIFF": "image/webp"}
 
 
 def read_mtl(path):
@@ -62,35 +62,11 @@ def roughness_of(mtl):
 
 class MaterialWriter:
     def __init__(self, document, say):
-        self.document, self.say, self.textures = document, say, {}
+        self.document, self.say, self.images = document, say, ImageEmbedder(document, say)
 
     def texture(self, mtl, key):
-        """The index of a map's texture, whose file goes into the document as it is; None without one."""
-        if key not in mtl:
-            return None
-        path = os.path.join(mtl["folder"], file_of(mtl[key]))
-        if path not in self.textures:
-            self.textures[path] = self.embed(path, key)
-        return self.textures[path]
-
-    def embed(self, path, key):
-        try:
-            with open(path, "rb") as file:
-                content = file.read()
-        except OSError as error:
-            self.say("%s of a material is left out: %s cannot be read (%s)" % (key, path, error.strerror))
-            return None
-        mime = next((mime for magic, mime in MIMES.items() if content.startswith(magic)), None)
-        if mime is None:
-            self.say("%s of a material is left out: %s is neither PNG nor JPEG nor WebP" % (key, path))
-            return None
-        image = self.document.append("images", {"mimeType": mime, "bufferView": self.document.view(content)})
-        source = {"source": image}
-        if mime == "image/webp":
-            source = {"extensions": {"EXT_texture_webp": source}}
-            self.document.extensions.add("EXT_texture_webp")
-            self.document.json["extensionsRequired"] = ["EXT_texture_webp"]
-        return self.document.append("textures", source)
+        """The index of a map's texture; None without one."""
+        return self.images.texture(os.path.join(mtl["folder"], file_of(mtl[key])), key) if key in mtl else None
 
     def write(self, name, mtl):
         for key in sorted(mtl):

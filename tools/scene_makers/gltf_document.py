@@ -98,8 +98,7 @@ class Document:
         if emission is not None:
             strength = max(emission)
             entry["emissiveFactor"] = [e / strength for e in emission]
-            if strength != 1.0:
-                extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
+            extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}  # without it the emission is no light
         if double_sided:
             entry["doubleSided"] = True
         if extensions:
@@ -243,9 +242,9 @@ class Document:
             content = to_glb(self.finish(embed=False), bytes(self.data))
         else:
             content = to_text(self.finish(embed=True)).encode()
-        write_whole(path, content)
-        for name, content in self.files.items():
-            write_whole(os.path.join(os.path.dirname(path), name), content)
+        for name, file in self.files.items():
+            write_whole(os.path.join(os.path.dirname(path), name), file)
+        write_whole(path, content)  # last: it names the others
 
 
 def to_text(document):
