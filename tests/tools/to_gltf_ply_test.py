@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """tools/to_gltf on PLY. It needs trimesh from PyPI: where that cannot be had, ctest lists this test as skipped (exit code 77)."""
 
+import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -19,8 +21,8 @@ SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
 
 def run_tool(folder, content):
     model = os.path.join(folder, "model.ply")
-    with open(model, "w") as file:
-        file.write(content)
+    with open(model, "wb") as file:
+        file.write(content if isinstance(content, bytes) else content.encode())
     return subprocess.run([os.path.join(ROOT, "tools", "to_gltf"), model, "-o", os.path.join(folder, "model.glb")],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -70,8 +72,57 @@ class ToGltfPlyTest(unittest.TestCase):
         glb = self.convert(square("", lambda x, y: "", FACES + COLORS, ("255 0 0", "0 0 255")))
         self.assertEqual([c[:3] for c in glb.corners("COLOR_0")], [(1, 0, 0)] * 3 + [(0, 0, 1)] * 3)
 
+    def cloud(self, form, properties, rows):
+        """`properties`: names by types of struct; `form`: a format of PLY."""
+        types = {"f": "float", "d": "double", "B": "uchar", "H": "ushort"}
+        header = "ply\nformat %s 1.0\nelement vertex %d\n" % (form, len(rows)) + "".join(
+            "property %s %s\n" % (types[code], name) for code, names in properties for name in names) + "end_header\n"
+        codes = "".join(code for code, names in properties for _ in names)
+        if form == "ascii":
+            return header + "".join(" ".join("%r" % value for value in row) + "\n" for row in rows)
+        order = "<" if form == "binary_little_endian" else ">"
+        return header.encode() + b"".join(struct.pack(order + codes, *row) for row in rows)
+
+    def test_clouds_become_points(self):
+        position, normal = ("f", "xyz"), ("f", ("nx", "ny", "nz"))
+        for form in ("ascii", "binary_little_endian", "binary_big_endian"):
+            glb = self.convert(self.cloud(form, [position], [(1.5, -2, 3), (4, 5.25, 6)]))
+            primitive, = glb.json["meshes"][0]["primitives"]
+            self.assertEqual((primitive["mode"], list(primitive["attributes"]), "indices" in primitive), (0, ["POSITION"], False))
+            self.assertEqual(glb.attribute("POSITION"), [(1.5, -2, 3), (4, 5.25, 6)])
+            bounds = glb.json["accessors"][primitive["attributes"]["POSITION"]]
+            self.assertEqual((bounds["min"], bounds["max"]), ([1.5, -2, 3], [4, 5.25, 6]))
+            rgb = ("red", "green", "blue")
+            for code, most in (("B", 255), ("H", 65535), ("f", 1)):
+                half, low = (most * byte / 255 if code == "f" else most * byte // 255 for byte in (128, 5))
+                glb = self.convert(self.cloud(form, [position, normal, (code, rgb)],
+                                              [(0, 0, 0, 0, 0, 2, most, half, low), (1, 1, 1, 1, 0, 0, 0, 0, 0)]))
+                self.assertEqual(glb.attribute("NORMAL"), [(0, 0, 1), (1, 0, 0)])
+                for color, truth in zip(glb.attribute("COLOR_0"), ((1.0, 0.2158605, 5.0 / 255.0 / 12.92), (0, 0, 0))):
+                    for c, t in zip(color, truth):
+                        self.assertAlmostEqual(c, t, 6)
+            glb = self.convert(self.cloud(form, [("d", "xyz"), ("B", (*rgb, "alpha"))], [(0.1, 0.2, 0.3, 0, 0, 255, 51)]))
+            self.assertAlmostEqual(glb.attribute("POSITION")[0][0], 0.1, 7)
+            for c, t in zip(glb.attribute("COLOR_0")[0], (0, 0, 1, 0.2)):
+                self.assertAlmostEqual(c, t, 6)
+
+    def test_points_that_are_not_finite_are_left_out(self):
+        content = self.cloud("binary_little_endian", [("f", "xyz"), ("B", ("red", "green", "blue"))],
+                             [(math.nan, 0, 0, 1, 1, 1), (1, 2, 3, 255, 0, 0), (0, 0, math.inf, 1, 1, 1)])
+        result = run_tool(self.folder.name, content)
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("2 points of", result.stderr)
+        glb = Glb(os.path.join(self.folder.name, "model.glb"))
+        self.assertEqual((glb.attribute("POSITION"), glb.attribute("COLOR_0")), ([(1, 2, 3)], [(1, 0, 0)]))
+
     def test_what_is_refused(self):
-        for content, sentence in ((HEADER % 1 + "end_header\n0 0 0\n", "model.ply: it holds no faces"),
+        whole = self.cloud("binary_big_endian", [("f", "xyz")], [(1, 2, 3)] * 4)
+        for content, sentence in ((HEADER % 0 + "end_header\n", "model.ply: it holds neither faces nor vertices"),
+                                  (HEADER % 1 + "end_header\nnan 0 0\n", "model.ply: it holds no finite point"),
+                                  (HEADER.replace("float z", "float w") % 1 + "end_header\n0 0 0\n", "model.ply: "),
+                                  (whole[:-5], "model.ply: trimesh cannot read it (PLY is unexpected length!)"),
+                                  (whole.replace(b"vertex 4", b"vertex 4000000000"), "model.ply: trimesh cannot read it"),
+                                  (HEADER % 4000000000 + "end_header\n0 0 0\n", "model.ply: it holds 1 vertices; expected 4000000000"),
                                   ("no PLY at all\n", "model.ply: trimesh cannot read it")):
             result = run_tool(self.folder.name, content)
             self.assertEqual(result.returncode, 1)

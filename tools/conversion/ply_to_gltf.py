@@ -1,20 +1,19 @@
-"""A PLY file, read by trimesh, as a glTF document of one node."""
+"""A PLY file, read by trimesh, as a glTF document of one node: its faces, or the points of one that has none."""
 
 import os
 
+import numpy
 import trimesh
 
-from conversion.colors import to_linear
 from conversion.errors import ConversionError
+from conversion.ply_points import linear, points_primitive
 from conversion.triangulate import triangulate
 from scene_makers.gltf_document import Document
 
-LINEAR = [to_linear(i / 255.0) for i in range(256)]
 
-
-def linear(rows):
-    """Alpha is linear already."""
-    return [[LINEAR[r], LINEAR[g], LINEAR[b], a / 255.0] for r, g, b, a in rows.tolist()]
+def colors_of(rows):
+    """Of bytes. Alpha is linear already."""
+    return numpy.column_stack([linear(rows[:, :3] / 255.0), rows[:, 3] / 255.0]).tolist()
 
 
 def polygons_of(mesh):
@@ -39,31 +38,36 @@ def corners_of(mesh):
     return corners
 
 
-def ply_to_gltf(path, say):
-    try:
-        mesh = trimesh.load(path, file_type="ply", process=False, fix_texture=False)
-    except Exception as error:  # trimesh raises what its parsers happen to meet
-        raise ConversionError("%s: trimesh cannot read it (%s); expected PLY" % (path, error))
-    if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
-        raise ConversionError("%s: it holds no faces; expected at least one" % path)
+def faces_primitive(path, mesh, document, say):
     normals = mesh.vertex_normals if "vertex_normals" in mesh._cache.cache else None  # else trimesh would make smooth ones
     attributes, vertices, faces = {}, mesh.vertices, mesh.faces
     kind = mesh.visual.kind
     if kind == "texture":
         say("the texture of %s is left out" % path)
     if kind == "face":  # colours of faces: each gets vertices of its own
-        attributes["COLOR_0"] = linear(mesh.visual.face_colors.repeat(3, axis=0))
+        attributes["COLOR_0"] = colors_of(mesh.visual.face_colors.repeat(3, axis=0))
         vertices, normals = vertices[faces.reshape(-1)], None if normals is None else normals[faces.reshape(-1)]
         faces = range(len(vertices))
     else:
         faces = corners_of(mesh)
         if kind == "vertex":
-            attributes["COLOR_0"] = linear(mesh.visual.vertex_colors)
+            attributes["COLOR_0"] = colors_of(mesh.visual.vertex_colors)
     if normals is not None:
         attributes["NORMAL"] = normals.tolist()
-    document = Document("glim tools/to_gltf")
     grey = 1.0 if "COLOR_0" in attributes else 0.8
     material = document.surface_material("default", [grey] * 3, roughness=1.0, doubleSided=True)
-    primitive = document.primitive(vertices.tolist(), list(faces), material, **attributes)
+    return document.primitive(vertices.tolist(), list(faces), material, **attributes)
+
+
+def ply_to_gltf(path, say):
+    try:
+        mesh = trimesh.load(path, file_type="ply", process=False, fix_texture=False)
+    except Exception as error:  # trimesh raises what its parsers happen to meet
+        raise ConversionError("%s: trimesh cannot read it (%s); expected PLY" % (path, error))
+    document = Document("glim tools/to_gltf")
+    if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces) > 0:
+        primitive = faces_primitive(path, mesh, document, say)
+    else:
+        primitive = points_primitive(path, mesh.metadata.get("_ply_raw", {}).get("vertex", {}), document, say)
     document.node(os.path.splitext(os.path.basename(path))[0], mesh=document.mesh(primitive))
     return document
