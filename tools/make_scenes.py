@@ -10,10 +10,12 @@ import sys
 
 sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
 from whole_file import write_whole  # noqa: E402
+from scene_makers.collada_document import to_collada  # noqa: E402
 from scene_makers.large_scenes import BUNNY, LARGE_SCENES, cornell_bunny  # noqa: E402
 from scene_makers.refused_scenes import REFUSED  # noqa: E402
 from scene_makers.small_scenes import SMALL_SCENES  # noqa: E402
 
+COLLADA = ("cornell", "cornell_spheres", "cornell_mirror_glass", "cornell_gems", "veach_mis")  # of materials that the course's profile has
 SCENES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "scenes")
 
 
@@ -22,7 +24,9 @@ def parse_arguments():
     parser.add_argument("--large", nargs=2, metavar=("NAME", "N"),
                         help="write one large scene instead: %s of N triangles, forest and grove of N trees, city of N houses, lamps of N lamps, menger of level N"
                         % ", ".join(n for n in LARGE_SCENES if n not in ("forest", "grove", "city", "lamps", "menger")))
-    parser.add_argument("-o", "--output", metavar="FILE", help="where to write the large scene (.glb or .gltf)")
+    parser.add_argument("--collada", metavar="NAME", choices=COLLADA,
+                        help="write a scene as Collada instead, with the profile of the courses CS 184 and 15-462: %s" % ", ".join(COLLADA))
+    parser.add_argument("-o", "--output", metavar="FILE", help="where to write the large scene (.glb or .gltf) or the Collada file (.dae)")
     parser.add_argument("--fetch", action="store_true",
                         help="write scenes/cornell_bunny.glb from Debian's glmark2-data instead")
     arguments = parser.parse_args()
@@ -33,12 +37,13 @@ def parse_arguments():
                          (name, size, ", ".join(LARGE_SCENES)))
         if name == "menger" and int(size) > 5:
             parser.error("--large menger %s: expected at most level 5, which has 13 million triangles" % size)
-    if arguments.large and arguments.fetch:
-        parser.error("--large and --fetch exclude each other")
-    if bool(arguments.large) != bool(arguments.output):
-        parser.error("--large and -o FILE belong together")
-    if arguments.output and not arguments.output.endswith((".glb", ".gltf")):
-        parser.error("-o %s: expected a name that ends in .glb or .gltf" % arguments.output)
+    if sum(map(bool, (arguments.large, arguments.collada, arguments.fetch))) > 1:
+        parser.error("--large, --collada and --fetch exclude each other")
+    if bool(arguments.large or arguments.collada) != bool(arguments.output):
+        parser.error("-o FILE belongs to --large and --collada, and they to it")
+    endings = (".dae",) if arguments.collada else (".glb", ".gltf")
+    if arguments.output and not arguments.output.endswith(endings):
+        parser.error("-o %s: expected a name that ends in %s" % (arguments.output, " or ".join(endings)))
     return arguments
 
 
@@ -47,6 +52,8 @@ def main():
     if arguments.large:
         name, size = arguments.large
         LARGE_SCENES[name](int(size)).write(arguments.output)
+    elif arguments.collada:
+        write_whole(arguments.output, to_collada(SMALL_SCENES[arguments.collada]()).text().encode())
     elif arguments.fetch:
         if not os.path.exists(BUNNY):
             sys.exit("make_scenes.py: %s is missing; install it with: apt install glmark2-data" % BUNNY)

@@ -72,7 +72,7 @@ TEST(LoadGltf, ReadsNoMoreOfABufferThanItNeeds)
 
 TEST(LoadGltf, OtherFormatsAreCalledSo)
 {
-    for (const auto& [name, isConverted] : {std::pair("a.obj", true), {"a.txt", false}}) {
+    for (const auto& [name, isConverted] : {std::pair("a.obj", true), {"a.dae", true}, {"a.txt", false}}) {
         try {
             loadGltf(writeTemporary(name, "v 0 0 0\n"));
             ADD_FAILURE() << name << " was loaded";

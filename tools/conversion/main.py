@@ -13,8 +13,9 @@ DESCRIPTION = """Converts OBJ, PLY and Collada (.dae) to glTF, for glim and othe
 
 Of OBJ it keeps texture coordinates, normals, smoothing groups, vertex colours, and of its materials Kd, d, Tr, Ns, Pr, Pm, Ke, map_Kd and
 map_Ke. PLY is read by trimesh, Collada by pycollada: the first call installs both from PyPI into a Python environment of their own
-(build/to_gltf). Of PLY it keeps normals and colours. Colours of vertices count as sRGB. Polygons may be concave. Surfaces get both sides,
-since none of the formats has single-sided ones. Lengths of OBJ and PLY stay what they are: glTF takes them for metres, and y for up.
+(build/to_gltf). Of PLY it keeps normals and colours; a file without faces becomes points. Colours of vertices count as sRGB. Polygons may
+be concave. Surfaces get both sides, since none of the formats has single-sided ones. Lengths of OBJ and PLY stay what they are: glTF takes
+them for metres, and y for up.
 
 Of Collada it keeps meshes, nodes and their instances, the up axis, the unit, cameras, point, spot, directional and ambient lights, and of
 materials the diffuse colour or texture, emission and transparency. Ambient light becomes a map beside the output. Lights fall with the

@@ -13,7 +13,8 @@ Writes OUT/index.html, which holds its pictures and plots and needs no network, 
 and OUT/pictures. The full study takes about 45 minutes on 2 cores without a GPU, --quick under 5. Progress goes to
 stderr; at the end the headline numbers go to stdout as a Markdown table.
 The course's scenes are not part of the repository; without them scenes of ours of the same make are used, and the page
-says so. GLIM_BINARY names another build of glim to measure instead of build/glim.
+says so. tools/to_gltf --course makes them of the course's .dae files.
+GLIM_BINARY names another build of glim to measure instead of build/glim.
 Exit codes: 0 done, 1 a scene or a run of glim failed, 2 usage, 130 or 143 stopped by SIGINT or SIGTERM (no page)."""
 
 

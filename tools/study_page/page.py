@@ -46,7 +46,8 @@ def build_page(study, folder):
         "the mean of (x - r)^2 / (r^2 + .01 mean(r)^2) against a long render r, whose own noise is subtracted and told where "
         "it exceeds 1 %%. Square brackets hold 95 %% intervals, Student's over seeds, one by one: of twenty such one may well "
         "miss. Those of ratios pair the renders of a seed; what was rendered once has none. Seconds are medians over seeds; "
-        "intervals of ratios of seconds hold how this one run scattered, not other machines or days." %
+        "intervals of ratios of seconds hold how this one run scattered, not other machines or days. tools/to_gltf --course "
+        "converts the course's .dae files, and tools/study --scenes takes their folder." %
         (study["scenes"]["set"], study["about"]["device"])))
     parts.append('<section id="summary"><h2>Summary</h2>\n' +
                  table(("idea", "costs", "buys"), study["headlines"]) + "</section>\n")

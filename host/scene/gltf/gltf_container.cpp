@@ -138,7 +138,7 @@ void checkJsonStart(const std::filesystem::path& file, const std::vector<unsigne
         return;
     }
     const std::string extension = lowerCase(file.extension().string());
-    const bool converted = extension == ".obj" || extension == ".ply";
+    const bool converted = extension == ".obj" || extension == ".ply" || extension == ".dae";
     throw InputError(
         MessageId::UnknownFormat,
         {part::file(file.string()), ": is not glTF: it begins with the byte ",
