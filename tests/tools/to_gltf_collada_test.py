@@ -202,6 +202,8 @@ class ToGltfColladaTest(unittest.TestCase):
         self.assert_near(opening["matrix"][8:11], towards)
         perspective = glb.json["cameras"][0]["perspective"]
         self.assertAlmostEqual(math.tan(0.5 * perspective["yfov"]), math.tan(math.radians(30.0)) / (4.0 / 3.0))
+        dae.node("above", "camera", "front", transforms=element("translate", "0 0 5"))
+        self.assert_near(self.convert(dae).json["nodes"][2]["matrix"][8:11], [0, 1, 0])
 
     def punctual(self, glb):
         return glb.json["extensions"]["KHR_lights_punctual"]["lights"]

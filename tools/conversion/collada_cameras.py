@@ -28,11 +28,12 @@ def write_opening_view(scene, instance, x, y):
     box = scene.box()
     size, middle = numpy.linalg.norm(box[1] - box[0]), box.mean(axis=0)
     direction = unit(instance.matrix[:3, 3] - instance.matrix[:3, 2])
-    if size == 0.0 or abs(direction[1]) > 1.0 - 1e-9:
+    if size == 0.0:
         return
+    up = (0.0, 1.0, 0.0) if abs(direction[1]) < 1.0 - 1e-9 else (0.0, 0.0, -1.0)
     y = y if x / y < COURSE_ASPECT else x / COURSE_ASPECT  # it widens the narrower side
     add_camera(scene, "opening view", "perspective", {"yfov": 2.0 * math.atan(y), "aspectRatio": COURSE_ASPECT, "znear": 0.001 * size},
-               look_at((middle + 1.5 * size * direction).tolist(), middle.tolist()))
+               look_at((middle + 1.5 * size * direction).tolist(), middle.tolist(), up))
 
 
 def write_camera(scene, instance):
