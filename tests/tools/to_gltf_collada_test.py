@@ -9,8 +9,20 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(os.path.dirname(os.path.dirname(HERE)), "tools")]
+from conversion.main import ENVIRONMENT  # noqa: E402
+from conversion.errors import ConversionError  # noqa: E402
+
+if __name__ == "__main__":
+    try:
+        ENVIRONMENT.enter(print)
+    except ConversionError as error:
+        print("skipped: %s" % error)
+        sys.exit(77)
+
 from to_gltf_test import GLIM, ROOT, Glb  # noqa: E402
+from conversion.collada_to_gltf import collada_to_gltf  # noqa: E402
 from conversion.smooth import dot  # noqa: E402
 from scene_makers import made_images as images  # noqa: E402
 from scene_makers.collada_document import ColladaDocument, element, source, to_collada  # noqa: E402
@@ -20,14 +32,6 @@ from scene_makers.small_scenes import cornell_mirror_glass  # noqa: E402
 TRIANGLE = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 TETRAHEDRON = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 SIDES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-
-
-def run_tool(folder, content, *options):
-    model = os.path.join(folder, "model.dae")
-    with open(model, "wb") as file:
-        file.write(content if isinstance(content, bytes) else content.encode())
-    return subprocess.run([os.path.join(ROOT, "tools", "to_gltf"), model, "-o", os.path.join(folder, "model.glb"), *options],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def one_triangle(up="Y_UP", **more):
@@ -50,15 +54,43 @@ class ToGltfColladaTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def convert(self, dae, *options, notices=()):
-        """A ColladaDocument or its text."""
-        result = run_tool(self.folder.name, dae if isinstance(dae, (str, bytes)) else dae.text(), *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        lines = result.stderr.splitlines()
-        self.assertEqual(len(lines), len(notices), result.stderr)
+    def write(self, text):
+        with open(self.path("model.dae"), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def convert(self, dae, course=False, notices=()):
+        """A ColladaDocument or its text, as tools/to_gltf does, but without a process."""
+        self.write(dae if isinstance(dae, str) else dae.text())
+        lines = []
+        collada_to_gltf(self.path("model.dae"), course, lines.append).write(self.path("model.glb"))
+        self.assertEqual(len(lines), len(notices), lines)
         for line, notice in zip(lines, notices):
             self.assertIn(notice, line)
         return Glb(self.path("model.glb"))
+
+    def refusal(self, text):
+        self.write(text)
+        with self.assertRaises(ConversionError) as caught:
+            collada_to_gltf(self.path("model.dae"), False, lambda notice: None)
+        return str(caught.exception)
+
+    def run_tool(self, dae, *options):
+        self.write(dae)
+        return subprocess.run([os.path.join(ROOT, "tools", "to_gltf"), self.path("model.dae"), "-o", self.path("model.glb"), *options],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def test_the_command(self):
+        text = one_triangle().text()
+        for old, new, options, sentence in ((">3</vcount>", ">4</vcount>", (), "expected 4, those of its <vcount>"),
+                                            ("<COLLADA", "<!DOCTYPE a><COLLADA", (), "it has a document type declaration; expected none")):
+            result = self.run_tool(text.replace(old, new), *options)
+            self.assertEqual(result.returncode, 1)
+            self.assertRegex(result.stderr, "^to_gltf: %s.*%s\n$" % (self.path("model.dae"), sentence))
+            self.assertEqual(os.listdir(self.folder.name), ["model.dae"])
+        for options, z in (((), -1.0), (("--course",), 1.0)):
+            result = self.run_tool(one_triangle("Z_UP", transforms=element("translate", "0 0 0")).text(), *options)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assert_near(transform(Glb(self.path("model.glb")).json["nodes"][-1], [0, 1, 0]), [0, 0, z])
 
     def assert_near(self, a, b, error=1e-6):
         self.assertEqual(len(a), len(b), "%s, expected %s" % (a, b))
@@ -68,8 +100,8 @@ class ToGltfColladaTest(unittest.TestCase):
     def node(self, glb, name):
         return next(node for node in glb.json["nodes"] if node["name"] == name)
 
-    def expect_corners(self, transforms, corners, up="Y_UP", options=(), text=lambda text: text):
-        glb = self.convert(text(one_triangle(up, transforms=transforms).text()), *options)
+    def expect_corners(self, transforms, corners, up="Y_UP", course=False, text=lambda text: text):
+        glb = self.convert(text(one_triangle(up, transforms=transforms).text()), course)
         for p, expected in zip(glb.corners("POSITION"), corners):
             self.assert_near(transform(glb.json["nodes"][-1], p), expected)
 
@@ -84,9 +116,9 @@ class ToGltfColladaTest(unittest.TestCase):
     def test_axes_and_units(self):
         moved = element("translate", "0 0 0")
         self.expect_corners(moved, [[0, 0, 0], [1, 0, 0], [0, 0, -1]], "Z_UP")
-        self.expect_corners(moved, [[0, 0, 0], [-1, 0, 0], [0, 0, 1]], "Z_UP", ["--course"])
+        self.expect_corners(moved, [[0, 0, 0], [-1, 0, 0], [0, 0, 1]], "Z_UP", True)
         self.expect_corners(moved, [[0, 0, 0], [0, 1, 0], [-1, 0, 0]], "X_UP")
-        self.expect_corners(moved, [[0, 0, 0], [0, 1, 0], [1, 0, 0]], "X_UP", ["--course"])
+        self.expect_corners(moved, [[0, 0, 0], [0, 1, 0], [1, 0, 0]], "X_UP", True)
         inches = {"text": lambda text: text.replace('meter="1"', 'meter="0.0254"')}
         self.expect_corners(element("translate", "0 0 1"), [[0, 0, 0.0254], [0.0254, 0, 0.0254], [0, 0.0254, 0.0254]], **inches)
 
@@ -116,7 +148,7 @@ class ToGltfColladaTest(unittest.TestCase):
         glb = self.convert(dae)
         for p, n in zip(glb.attribute("POSITION"), glb.attribute("NORMAL")):
             self.assert_near(n, normalize(own[TETRAHEDRON.index(list(p))]))
-        glb = self.convert(dae, "--course")
+        glb = self.convert(dae, True)
         self.assertEqual(len(glb.attribute("POSITION")), 4)
         # Doubled areas as vectors: three sides of length 1, and (1, 1, 1).
         truth = {(0, 0, 0): [-1, -1, -1], (1, 0, 0): [1, 0, 0], (0, 1, 0): [0, 1, 0], (0, 0, 1): [0, 0, 1]}
@@ -214,14 +246,14 @@ class ToGltfColladaTest(unittest.TestCase):
 
     def test_point_lights(self):
         # The box of the triangle is about (.5, .5, 0): 2 from the light.
-        for attenuations, options, intensity, notices in (
-                (self.attenuations(0, 0, 0.25), (), 6.0 / 0.25, ()),
-                (self.attenuations(1, 0.5, 0.25), (), 6.0 * 4.0 / 3.0, ["does not fall with the square"]),
-                (self.attenuations(0, 0, 0.25), ("--course",), 6.0 * 4.0, ["does not fall with the square"])):
+        for attenuations, course, intensity, notices in (
+                (self.attenuations(0, 0, 0.25), False, 6.0 / 0.25, ()),
+                (self.attenuations(1, 0.5, 0.25), False, 6.0 * 4.0 / 3.0, ["does not fall with the square"]),
+                (self.attenuations(0, 0, 0.25), True, 6.0 * 4.0, ["does not fall with the square"])):
             dae = one_triangle()
             dae.light("bulb", "point", [3, 6, 1.5], attenuations)
             dae.node("bulb", "light", "bulb", transforms=element("translate", "0.5 0.5 2"))
-            glb = self.convert(dae, *options, notices=notices)
+            glb = self.convert(dae, course, notices)
             light, = self.punctual(glb)
             self.assertEqual((light["type"], light["color"]), ("point", [0.5, 1.0, 0.25]))
             self.assertAlmostEqual(light["intensity"], intensity)
@@ -253,13 +285,13 @@ class ToGltfColladaTest(unittest.TestCase):
         return [[c * 2.0 ** (p[3] - 136) for c in p[:3]] for p in (pixels[:4], pixels[-4:])]
 
     def test_ambient_light(self):
-        for options, lower in (((), 1.0), (("--course",), 0.0)):
+        for course, lower in ((False, 1.0), (True, 0.0)):
             dae = one_triangle()
             dae.light("sky", "ambient", [0.3, 0.6, 1.5])
             dae.light("more", "ambient", [0, 0, 0.5])
             dae.node("sky", "light", "sky")
             dae.node("more", "light", "more")
-            environment = self.convert(dae, *options).json["scenes"][0]["extras"]["environment"]
+            environment = self.convert(dae, course).json["scenes"][0]["extras"]["environment"]
             self.assertEqual(environment["file"], "model_ambient.hdr")
             top, bottom = ([environment["strength"] * c for c in row] for row in self.read_map())
             self.assert_near(top, [0.3, 0.6, 2.0], 2.0 / 510.0)
@@ -383,7 +415,6 @@ class ToGltfColladaTest(unittest.TestCase):
         good.node("ball", "geometry", "ball", material="glass")
         good = good.text()
         self.convert(good)
-        os.remove(self.path("model.glb"))
         bomb = "<!DOCTYPE COLLADA [<!ENTITY a \"aaaaaaaaaa\">%s]>" % "".join(
             "<!ENTITY %s \"%s\">" % (name, "&%s;" % before * 10) for before, name in zip("abcdefghi", "bcdefghij"))
         for old, new, sentence in (
@@ -431,21 +462,17 @@ class ToGltfColladaTest(unittest.TestCase):
                 ("<instance_geometry url=\"#triangle\">", "<instance_node url=\"#triangle-node\"/><instance_geometry url=\"#triangle\">",
                  "expected none that instances itself")):
             self.assertIn(old, good)
-            result = run_tool(self.folder.name, good.replace(old, new))
-            self.assertEqual(result.returncode, 1, sentence + result.stderr)
-            self.assertIn("to_gltf: %s" % self.path("model.dae"), result.stderr)
-            self.assertIn(sentence, result.stderr)
-            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-            self.assertEqual(os.listdir(self.folder.name), ["model.dae"])
+            refusal = self.refusal(good.replace(old, new))
+            self.assertTrue(refusal.startswith(self.path("model.dae")), refusal)
+            self.assertIn(sentence, refusal)
+            self.assertEqual(len(refusal.splitlines()), 1, refusal)
 
     def test_nodes_that_multiply(self):
         dae = one_triangle()
         dae.libraries["nodes"] = [element("node", element("instance_node", url="#n%d" % (i + 1)) * 10, id="n%d" % i) for i in range(9)]
         dae.libraries["nodes"].append(element("node", element("instance_geometry", url="#triangle"), id="n9"))
         dae.node("many", "node", "n0")
-        result = run_tool(self.folder.name, dae.text())
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("more than 200000 nodes", result.stderr)
+        self.assertIn("more than 200000 nodes", self.refusal(dae.text()))
 
     @unittest.skipIf(GLIM is None, "no program of glim was named")
     def test_glim_draws_the_same_pictures(self):
@@ -469,9 +496,4 @@ def spaced_rows(size):
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as scratch:
-        first = run_tool(scratch, one_triangle().text())
-    if "expected a connection to PyPI" in first.stderr or "expected Python's venv" in first.stderr:
-        print("skipped: %s" % first.stderr)
-        sys.exit(77)
     unittest.main()

@@ -7,7 +7,10 @@ import sys
 sys.dont_write_bytecode = True  # beside the sources it would look like a change to build
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 
+from conversion.environment import Environment  # noqa: E402
 from conversion.errors import ConversionError  # noqa: E402
+
+ENVIRONMENT = Environment("to_gltf", ["trimesh==5.2.0", "pycollada==0.9.3", "numpy"])
 
 DESCRIPTION = """Converts OBJ, PLY and Collada (.dae) to glTF, for glim and others.
 
@@ -48,8 +51,7 @@ def convert(path, course):
     if path.lower().endswith(".obj"):
         from conversion.obj_to_gltf import obj_to_gltf
         return obj_to_gltf(path, say)
-    from conversion.environment import Environment
-    Environment("to_gltf", ["trimesh==5.2.0", "pycollada==0.9.3", "numpy"]).enter(say)
+    ENVIRONMENT.enter(say)
     if path.lower().endswith(".dae"):
         from conversion.collada_to_gltf import collada_to_gltf
         return collada_to_gltf(path, course, say)
