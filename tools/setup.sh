@@ -21,6 +21,7 @@ buildPackages=(
     "libpng-dev                reads and writes PNG"
     "libjpeg62-turbo-dev       reads and writes JPEG"
     "libwebp-dev               reads and writes WebP"
+    "libzstd-dev               reads compressed KTX2"
     "libdraco-dev              reads compressed meshes"
     "libmeshoptimizer-dev      reads compressed meshes of another kind"
     "libcli11-dev              reads the command line"

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/jpeg_errors.hpp"
+#include "host/image/ktx2/ktx2.hpp"
 
 #include <png.h>
 #include <webp/decode.h>
@@ -19,15 +20,6 @@ using Bytes = std::span<const unsigned char>;
 bool startsWith(Bytes bytes, std::string_view magic, std::size_t at = 0)
 {
     return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
-}
-
-void checkSize(const char* kind, std::uint32_t width, std::uint32_t height)
-{
-    if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide) {
-        throw InputError(MessageId::TooLarge,
-                         {"is a ", kind, " of ", part::value(std::to_string(width) + "x" + std::to_string(height)), " pixels; expected ",
-                          part::expected("1 to " + std::to_string(kMaxImageSide)), " in each direction"});
-    }
 }
 
 // Whether a chunk is longer than the file. libpng allocates what the length says, of texts for example, even beyond its limit.
@@ -148,7 +140,7 @@ DecodedImage decodePng(Bytes bytes)
     DecodedImage image;
     image.width = png_get_image_width(reader.png(), reader.info());
     image.height = png_get_image_height(reader.png(), reader.info());
-    checkSize("PNG", image.width, image.height);
+    checkImageSize("PNG", image.width, image.height);
     const bool wide = png_get_bit_depth(reader.png(), reader.info()) == 16;
     image.hasAlpha = (png_get_color_type(reader.png(), reader.info()) & PNG_COLOR_MASK_ALPHA) != 0 ||
                      png_get_valid(reader.png(), reader.info(), PNG_INFO_tRNS) != 0;
@@ -277,7 +269,7 @@ DecodedImage decodeJpeg(Bytes bytes)
         }
     };
     require(readJpegHeader(reader, bytes));
-    checkSize("JPEG", reader.jpeg.image_width, reader.jpeg.image_height);
+    checkImageSize("JPEG", reader.jpeg.image_width, reader.jpeg.image_height);
     // Huffman's codes have at least a bit for each block of 64 pixels: a header that promises more costs no memory.
     constexpr std::uint64_t kMaxPixelsPerByte = 512;
     if (reader.jpeg.arith_code == FALSE &&
@@ -306,7 +298,7 @@ DecodedImage decodeWebp(Bytes bytes)
     DecodedImage image;
     image.width = static_cast<std::uint32_t>(features.width);
     image.height = static_cast<std::uint32_t>(features.height);
-    checkSize("WebP", image.width, image.height);
+    checkImageSize("WebP", image.width, image.height);
     image.hasAlpha = features.has_alpha != 0;
     image.rgba8.resize(std::size_t{image.width} * image.height * 4);
     if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), image.rgba8.data(), image.rgba8.size(), features.width * 4) == nullptr) {
@@ -332,7 +324,16 @@ std::string firstBytes(Bytes bytes)
 
 }  // namespace
 
-bool beginsAsImage(Bytes bytes) { return isPng(bytes) || isJpeg(bytes) || isWebp(bytes); }
+void checkImageSize(const char* kind, std::uint32_t width, std::uint32_t height)
+{
+    if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide) {
+        throw InputError(MessageId::TooLarge,
+                         {"is a ", kind, " of ", part::value(std::to_string(width) + "x" + std::to_string(height)), " pixels; expected ",
+                          part::expected("1 to " + std::to_string(kMaxImageSide)), " in each direction"});
+    }
+}
+
+bool beginsAsImage(Bytes bytes) { return isPng(bytes) || isJpeg(bytes) || isWebp(bytes) || isKtx2(bytes); }
 
 DecodedImage decodeImage(Bytes bytes)
 {
@@ -345,10 +346,11 @@ DecodedImage decodeImage(Bytes bytes)
     if (isWebp(bytes)) {
         return decodeWebp(bytes);
     }
-    const bool ktx = startsWith(bytes, "\xabKTX 20");
-    throw InputError(MessageId::UnknownFormat,
-                     {"is ", part::value(ktx ? "a KTX2 texture" : "of an unknown kind (" + firstBytes(bytes) + ")"), "; expected ",
-                      part::expected("PNG, JPEG or WebP")});
+    if (isKtx2(bytes)) {
+        return decodeKtx2(bytes);
+    }
+    throw InputError(MessageId::UnknownFormat, {"is ", part::value("of an unknown kind (" + firstBytes(bytes) + ")"), "; expected ",
+                                                part::expected("PNG, JPEG, WebP or KTX2")});
 }
 
 }  // namespace glim

@@ -1,4 +1,4 @@
-// PNG, JPEG and WebP to texels.
+// PNG, JPEG, WebP and KTX2 to texels.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,9 @@ struct DecodedImage {
     std::vector<std::uint8_t> rgba8;
     std::vector<std::uint16_t> rgba16;
 };
+
+// Throws InputError unless both sides are from 1 to kMaxImageSide. `kind`: as in "PNG".
+void checkImageSize(const char* kind, std::uint32_t width, std::uint32_t height);
 
 // Whether these are the first bytes of a kind that decodeImage knows; it looks at twelve.
 bool beginsAsImage(std::span<const unsigned char> bytes);

@@ -179,7 +179,7 @@ TEST(DecodeImageTest, BrokenImagesAreRefused)
     const Case cases[] = {
         {{}, MessageId::UnknownFormat, "of an unknown kind (it is empty)"},
         {{'G', 'I', 'F', '8'}, MessageId::UnknownFormat, "of an unknown kind (it begins with 47 49 46 38)"},
-        {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, MessageId::UnknownFormat, "a KTX2 texture"},
+        {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, MessageId::UnknownFormat, "of an unknown kind (it begins with ab 4b 54 58)"},
         {truncated(png, 100), MessageId::FileDamaged, withinChunk},
         {truncated(png, png.size() - 20), MessageId::FileDamaged, withinChunk},
         {longText, MessageId::FileDamaged, withinChunk},

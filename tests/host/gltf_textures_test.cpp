@@ -70,6 +70,41 @@ TEST(GltfTextures, ImagesInDataUrisOfAnyType)
                   {.place = "images[0].uri", .expected = "comma"});
 }
 
+// A KTX2 of one texel.
+Bytes redKtx2()
+{
+    Bytes file{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
+    // R8G8B8A8_UNORM; the descriptor at 104, the level at 148
+    for (const std::uint32_t number : {37, 1, 1, 1, 0, 0, 1, 1, 0, 104, 44, 0, 0, 0, 0, 0, 0, 148, 0, 4, 0, 4, 0, 44, 0, 2 + (40 << 16)}) {
+        for (int shift = 0; shift < 32; shift += 8) {
+            file.push_back(static_cast<unsigned char>(number >> shift));
+        }
+    }
+    file.resize(148);
+    file.insert(file.end(), kRed.begin(), kRed.end());
+    return file;
+}
+
+// What an extension offers goes before the texture's own source.
+TEST(GltfTextures, ExtensionsOfferImages)
+{
+    const std::string blue = base64Uri("image/png", encodePng(1, 1, {0, 0, 255})), broken = "data:image/png;base64,AAEC";
+    const std::vector<std::pair<const char*, std::string>> extensions{
+        {"KHR_texture_basisu", base64Uri("image/ktx2", redKtx2())}, {"EXT_texture_webp", base64Uri("image/webp", encodeWebp(1, 1, kRed))}};
+    for (const auto& [extension, uri] : extensions) {
+        SCOPED_TRACE(extension);
+        GltfBuilder builder = texturedTriangle({{"uri", blue}});
+        builder.append("images", {{"uri", uri}});
+        builder.document["textures"][0]["extensions"][extension] = {{"source", 1}};
+        EXPECT_EQ(load(builder).images.at(0).pixels->rgba8, kRed);
+        builder.document["extensionsRequired"] = builder.document["extensionsUsed"] = {extension};
+        builder.document["textures"][0].erase("source");
+        EXPECT_EQ(load(builder).images.at(0).pixels->rgba8, kRed) << "it is the only one";
+        builder.document["images"][1]["uri"] = broken;
+        expectRefused(builder, MessageId::UnknownFormat, {.place = "images[1]"});
+    }
+}
+
 TEST(GltfTextures, DataUrisOfText)
 {
     std::string text = "data:image/png,";
@@ -301,8 +336,7 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
         builder.document["extensionsUsed"] = {extension};
         return builder;
     };
-    for (const char* extension :
-         {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds", "KHR_gaussian_splatting", "VENDOR_unknown"}) {
+    for (const char* extension : {"EXT_texture_avif", "MSFT_texture_dds", "KHR_gaussian_splatting", "VENDOR_unknown"}) {
         expectRefused(require(extension), MessageId::Unsupported, {.place = "extensionsRequired", .value = extension});
     }
     for (const char* extension :

@@ -62,6 +62,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
     {"png.h", {"image"}},
     {"jpeglib.h", {"image"}},
     {"webp/", {"image"}},
+    {"zstd.h", {"image"}},
     {"imgui", {"window", "preview", "view", "gpu"}},
     {"GLFW/", {"window"}},
     {"vulkan/", {"gpu"}},

@@ -49,6 +49,7 @@ constexpr const char* kSupportedExtensions[] = {
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 };
 

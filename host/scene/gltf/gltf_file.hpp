@@ -36,7 +36,6 @@ struct EncodedImage {
 struct GltfTexture {
     std::string name;
     std::optional<std::size_t> image;  // the one that glim reads, of those that the texture offers
-    bool basis = false;                // offers a KTX2 image
     Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
     bool nearest = false;
 };

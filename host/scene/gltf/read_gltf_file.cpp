@@ -287,10 +287,11 @@ std::vector<GltfTexture> listTextures(const json& document)
         texture.wrapT = wrapOf(sampler, "wrapT");
         texture.nearest = isNearest(sampler);
         const json extensions = entry.value("extensions", json::object());
-        texture.basis = extensions.contains("KHR_texture_basisu");
-        const json webp = extensions.value("EXT_texture_webp", json::object());
-        if (webp.contains("source") || entry.contains("source")) {
-            texture.image = (webp.contains("source") ? webp : entry)["source"].get<std::size_t>();
+        for (const json& holder :
+             {extensions.value("EXT_texture_webp", json::object()), extensions.value("KHR_texture_basisu", json::object()), entry}) {
+            if (!texture.image && holder.contains("source")) {
+                texture.image = holder["source"].get<std::size_t>();
+            }
         }
         textures.push_back(std::move(texture));
     }

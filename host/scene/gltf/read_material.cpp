@@ -111,11 +111,6 @@ std::optional<Texture> MaterialReader::readTexture(int index, int uvSet, const t
     }
     const GltfTexture& source = file_.textures[static_cast<std::size_t>(index)];
     if (!source.image) {
-        if (source.basis) {
-            refuse(file_, MessageId::Unsupported,
-                   {part::place(label("textures", static_cast<std::size_t>(index), source.name)), " has only a KTX2 image (",
-                    part::value("KHR_texture_basisu"), "); expected ", part::expected("a source that is PNG, JPEG or WebP")});
-        }
         ignore(true, MessageId::TextureWithoutSource, "textures without a source are ignored");
         return std::nullopt;
     }
