@@ -36,6 +36,7 @@ TEST(FuzzCorpus, ScenesLoadOrAreRefused) { replay("load", "load"); }
 TEST(FuzzCorpus, ScenesAreBuilt) { replay("build", "load"); }
 TEST(FuzzCorpus, FilmsAreMergedOrRefused) { replay("film", "film"); }
 TEST(FuzzCorpus, ImagesAreDecodedOrRefused) { replay("image", "image"); }
+TEST(FuzzCorpus, Ktx2TexturesAreDecodedOrRefused) { replay("ktx2", "ktx2"); }
 
 TEST(FuzzContract, NoticesEachViolation)
 {

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <webp/decode.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -214,11 +215,30 @@ Defect image(Bytes bytes)
     return std::nullopt;
 }
 
+// A legal KTX2 of 300 bytes may have 16384x16384 pixels.
+bool isLargeKtx2(Bytes bytes)
+{
+    constexpr std::uint64_t kMaxPixels = 1 << 22;
+    constexpr std::size_t kSizeAt = 20;
+    std::uint32_t size[2];
+    if (bytes.size() < kSizeAt + sizeof size) {
+        return false;
+    }
+    std::memcpy(size, bytes.data() + kSizeAt, sizeof size);
+    return std::uint64_t{size[0]} * size[1] > kMaxPixels;
+}
+
+Defect ktx2(Bytes bytes)
+{
+    return isLargeKtx2(bytes) ? std::nullopt : findDefect("", [&] { decodeImage(bytes); });
+}
+
 }  // namespace
 
 std::optional<std::string> runTarget(const std::string& target, Bytes bytes)
 {
-    static const std::map<std::string, Defect (*)(Bytes)> kTargets{{"load", load}, {"build", build}, {"film", film}, {"image", image}};
+    static const std::map<std::string, Defect (*)(Bytes)> kTargets{
+        {"load", load}, {"build", build}, {"film", film}, {"image", image}, {"ktx2", ktx2}};
     return kTargets.at(target)(bytes);
 }
 
