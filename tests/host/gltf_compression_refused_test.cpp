@@ -28,12 +28,13 @@ TEST(GltfCompressionRefused, MeshoptThatBreaksARule)
 {
     expectMeshoptRefusal(5, {{"mode", "POINTS"}}, MessageId::UnknownName,
                          {.place = ".mode", .value = "\"POINTS\"", .expected = "ATTRIBUTES, TRIANGLES, INDICES"});
-    expectMeshoptRefusal(5, {{"filter", "COLOR"}}, MessageId::UnknownName,
-                         {.place = ".filter", .value = "\"COLOR\"", .expected = "NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL"});
+    expectMeshoptRefusal(5, {{"filter", "COLOUR"}}, MessageId::UnknownName,
+                         {.place = ".filter", .value = "\"COLOUR\"", .expected = "NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL, COLOR"});
     expectMeshoptRefusal(9, {{"filter", "EXPONENTIAL"}}, MessageId::Conflict,
                          {.place = ".filter", .value = "EXPONENTIAL", .expected = "NONE"});
     expectMeshoptRefusal(5, {{"filter", "OCTAHEDRAL"}}, MessageId::OutOfRange,
                          {.place = ".byteStride", .value = "12", .expected = "OCTAHEDRAL"});
+    expectMeshoptRefusal(5, {{"filter", "COLOR"}}, MessageId::OutOfRange, {.place = ".byteStride", .value = "12", .expected = "COLOR"});
     expectMeshoptRefusal(5, {{"filter", "QUATERNION"}}, MessageId::OutOfRange,
                          {.place = ".byteStride", .value = "12", .expected = "QUATERNION"});
     expectMeshoptRefusal(5, {{"byteStride", 10}}, MessageId::OutOfRange, {.place = ".byteStride", .value = "10", .expected = "ATTRIBUTES"});

@@ -252,12 +252,41 @@ TEST(GltfCosts, StreamsThatManyPartsName)
     const MeshoptView zeros{"EXT_meshopt_compression", "ATTRIBUTES", "NONE", 16, 65536};
     const Bytes stream = encodeAttributes(Bytes(zeros.stride * zeros.count), zeros.stride);
     const std::size_t view = addMeshoptView(views, stream, zeros);
-    const std::size_t many = 1024 * views.bytes().size() / (zeros.stride * zeros.count) + 1;
+    const std::size_t many = (64 * kMiB + 64 * views.bytes().size()) / (zeros.stride * zeros.count);
     for (std::size_t i = 0; i < many; ++i) {
         views.document["bufferViews"].push_back(views.document["bufferViews"][view]);
     }
     expectRefused(views, MessageId::TooLarge,
                   {.value = std::to_string(zeros.stride * zeros.count), .expected = "left for a file of this size"});
+}
+
+// Of version 1: two bits of its control bytes say that 256 bytes are those of the element before.
+Bytes sameElements(std::size_t count, std::size_t stride)
+{
+    Bytes stream{0xa1};
+    stream.insert(stream.end(), (count + 255) / 256 * stride / 4, 0xaa);
+    stream.insert(stream.end(), std::max<std::size_t>(24, stride + stride / 4), 0);
+    return stream;
+}
+
+// Millions of vertices at one place, from 66 KB.
+TEST(GltfCosts, StreamsThatStandForAThousandTimesTheirBytes)
+{
+    const auto bomb = [](std::uint64_t bytes) {
+        GltfBuilder builder = build(makeHills(3), addPlain);
+        const MeshoptView same{"KHR_meshopt_compression", "ATTRIBUTES", "NONE", 12, bytes / 12};
+        const std::size_t view = addMeshoptView(builder, sameElements(same.count, same.stride), same);
+        builder.document["bufferViews"][view]["byteStride"] = same.stride;
+        const std::size_t positions =
+            builder.append("accessors", {{"bufferView", view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", same.count}});
+        builder.document["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", positions}}}});
+        return builder;
+    };
+    const GltfBuilder most = bomb(64 * kMiB);
+    EXPECT_LT(peakOf([&] { EXPECT_EQ(load(most, litByTheSky()).meshes.size(), 2U); }), 512 * kMiB);
+    const GltfBuilder more = bomb(69 * kMiB);
+    EXPECT_LT(peakOf([&] { expectRefused(more, MessageId::TooLarge, {.value = "72351744", .expected = "left for a file of this size"}); }),
+              64 * kMiB);
 }
 
 // The rules for a material are ten times as many as those for a node. A material that has nothing costs little for that.

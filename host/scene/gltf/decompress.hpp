@@ -13,8 +13,7 @@ namespace glim {
 // reach more than 64 (the first one) or 1024 (the second, where two bits can stand for 256 bytes).
 constexpr std::uint64_t kMaxCompression = 1024;
 
-// EXT_meshopt_compression and KHR_meshopt_compression, as far as libmeshoptimizer knows their bitstreams. What a fallback holds is not
-// read.
+// EXT_meshopt_compression and KHR_meshopt_compression. What a fallback holds is not read.
 void decompressViews(const std::string& path, nlohmann::json& document, Buffers& buffers);
 
 // KHR_draco_mesh_compression. Each primitive gets accessors of its own, also where the file has uncompressed ones beside it.

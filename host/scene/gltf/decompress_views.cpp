@@ -1,4 +1,5 @@
 #include "host/error.hpp"
+#include "host/scene/gltf/decode_attributes.hpp"
 #include "host/scene/gltf/decompress.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 
@@ -11,15 +12,9 @@ namespace {
 
 using nlohmann::json;
 
-using Decode = int (*)(void* decoded, std::size_t count, std::size_t stride, const unsigned char* bytes, std::size_t size);
-
-Decode decoderOf(const std::string& mode)
-{
-    if (mode == "ATTRIBUTES") {
-        return meshopt_decodeVertexBuffer;
-    }
-    return mode == "TRIANGLES" ? Decode{meshopt_decodeIndexBuffer} : Decode{meshopt_decodeIndexSequence};
-}
+// What the views of a file may hold together. So many bytes are never too many; beyond, a file of zeros in version 0 of attributes has 64
+// for each of its own. Version 1 could make a gigabyte of a megabyte, but only of elements that are all the same.
+constexpr std::uint64_t kFewBytes = std::uint64_t{1} << 26U, kDecodedPerByte = 64;
 
 class ViewDecoder {
 public:
@@ -48,7 +43,7 @@ public:
     std::vector<unsigned char> decode(std::span<const unsigned char> bytes) const
     {
         std::vector<unsigned char> decoded(count_ * stride_);
-        require(decoderOf(mode_)(decoded.data(), count_, stride_, bytes.data(), bytes.size()) == 0, MessageId::FileDamaged,
+        require(decode(bytes, decoded), MessageId::FileDamaged,
                 {part::place(place_), " holds ", part::value(std::to_string(bytes.size())),
                  " bytes that are damaged or of an unknown version; expected ",
                  part::expected(std::to_string(count_) + " elements in mode " + mode_)});
@@ -58,6 +53,8 @@ public:
             meshopt_decodeFilterQuat(decoded.data(), count_, stride_);
         } else if (filter_ == "EXPONENTIAL") {
             meshopt_decodeFilterExp(decoded.data(), count_, stride_);
+        } else if (filter_ == "COLOR") {
+            decodeColors(stride_, decoded);
         }
         return decoded;
     }
@@ -70,6 +67,17 @@ private:
         }
     }
 
+    // The library of Debian 12 and 13 knows version 0 of attributes only.
+    bool decode(std::span<const unsigned char> bytes, std::vector<unsigned char>& decoded) const
+    {
+        if (mode_ == "ATTRIBUTES") {
+            return decodeAttributes(bytes, stride_, decoded);
+        }
+        const int error = mode_ == "TRIANGLES" ? meshopt_decodeIndexBuffer(decoded.data(), count_, stride_, bytes.data(), bytes.size())
+                                               : meshopt_decodeIndexSequence(decoded.data(), count_, stride_, bytes.data(), bytes.size());
+        return error == 0;
+    }
+
     // What the decoders take for granted.
     void check() const
     {
@@ -80,7 +88,8 @@ private:
         };
         if (mode_ == "ATTRIBUTES") {
             requireStride(stride_ % 4 == 0, "a multiple of 4 in mode ATTRIBUTES");
-            requireStride(filter_ != "OCTAHEDRAL" || stride_ == 4 || stride_ == 8, "4 or 8 for the filter OCTAHEDRAL");
+            requireStride((filter_ != "OCTAHEDRAL" && filter_ != "COLOR") || stride_ == 4 || stride_ == 8,
+                          "4 or 8 for the filter " + filter_);
             requireStride(filter_ != "QUATERNION" || stride_ == 8, "8 for the filter QUATERNION");
             return;
         }
@@ -103,7 +112,7 @@ void decompressViews(const std::string& path, json& document, Buffers& buffers)
 {
     json none = json::array();
     json& views = document.contains("bufferViews") ? document["bufferViews"] : none;
-    std::uint64_t room = kMaxCompression * countBytes(buffers);  // views may overlap
+    std::uint64_t room = kFewBytes + kDecodedPerByte * countBytes(buffers);  // views may overlap
     for (std::size_t i = 0; i < views.size(); ++i) {
         json& view = views[i];
         for (const std::string name : kMeshoptExtensions) {

@@ -260,7 +260,7 @@ constexpr SchemaRule kTextureRules[] = {
     schema::whole(".extensions.KHR_texture_transform.texCoord", Need::Optional, 0, kMaxInt),
 };
 
-// The second one's first bitstream is that of the other.
+// What the second one adds, version 1 of attributes and the filter COLOR, is read under both names.
 constexpr const char* kMeshoptExtensions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 constexpr SchemaRule kMeshoptViewRules[] = {
     schema::index(".buffer", "buffers", Need::Required),
@@ -269,7 +269,7 @@ constexpr SchemaRule kMeshoptViewRules[] = {
     schema::whole(".byteStride", Need::Required, 1, 256),
     schema::whole(".count", Need::Required, 1),
     schema::oneOf(".mode", "ATTRIBUTES, TRIANGLES, INDICES", Need::Required),
-    schema::oneOf(".filter", "NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL"),
+    schema::oneOf(".filter", "NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL, COLOR"),
 };
 constexpr SchemaRule kMeshoptBufferRules[] = {schema::other(".fallback", JsonKind::Bool)};
 
