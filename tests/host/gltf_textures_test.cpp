@@ -343,8 +343,8 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
          {"KHR_materials_unlit", "KHR_node_visibility", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
         EXPECT_FALSE(hasWarning(load(require(extension)).warnings, MessageId::ExtensionIgnored)) << extension << " is supported";
     }
-    for (const char* extension :
-         {"KHR_animation_pointer", "KHR_xmp_json_ld", "KHR_node_selectability", "EXT_mesh_features", "KHR_audio_emitter"}) {
+    for (const char* extension : {"KHR_animation_pointer", "KHR_xmp", "KHR_xmp_json_ld", "KHR_node_hoverability", "KHR_node_selectability",
+                                  "KHR_interactivity", "EXT_mesh_features", "KHR_audio_emitter", "KHR_physics_rigid_bodies", "MSFT_lod"}) {
         EXPECT_FALSE(hasWarning(load(require(extension)).warnings, MessageId::ExtensionIgnored))
             << extension << " changes no still picture";
     }
@@ -384,9 +384,27 @@ TEST(GltfTextures, InvisibleNodesAndWhatHangsBelowAreLeftOut)
     const std::size_t child = builder.append("nodes", {{"mesh", mesh}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
     builder.addNode(
         {{"name", "ghost"}, {"mesh", mesh}, {"children", {child}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+    builder.document["extensionsRequired"] = {"KHR_node_visibility"};
     const Scene scene = load(builder);
     EXPECT_EQ(scene.instances.size(), 1U);
     EXPECT_EQ(findWarning(scene.warnings, MessageId::InvisibleNode).place, "nodes[2] (\"ghost\")");
+}
+
+TEST(GltfTextures, OfInvisibleNodesCamerasAreKeptAndLightsAreNot)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    builder.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+    const std::size_t child =
+        builder.append("nodes", {{"camera", 0}, {"translation", {0, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    builder.addNode({{"children", {child}}, {"translation", {0, 0, 1}}});
+    EXPECT_EQ(load(builder).lights.size(), 1U);
+    builder.document["nodes"].back()["extensions"]["KHR_node_visibility"]["visible"] = false;
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.lights.size(), 0U);
+    EXPECT_FALSE(hasWarning(scene.warnings, MessageId::FramedCamera));
+    EXPECT_EQ(scene.cameras.size(), 1U);
 }
 
 }  // namespace

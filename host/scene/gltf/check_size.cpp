@@ -85,7 +85,7 @@ void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
     std::vector<std::uint64_t> instancesOf(file.model.meshes.size(), 0);
     std::uint64_t unbackedInstances = 0;
     for (const PlacedNode& node : nodes) {
-        if (const int mesh = file.model.nodes[node.index].mesh; mesh >= 0) {
+        if (const int mesh = file.model.nodes[node.index].mesh; mesh >= 0 && node.visible) {
             instancesOf[static_cast<std::size_t>(mesh)] += countInstances(file, node.index);
             unbackedInstances += countUnbackedInstances(file, node.index);
         }

@@ -138,7 +138,6 @@ glm::dmat3 requireInvertible(const GltfFile& file, std::size_t node, const glm::
     return linear;
 }
 
-// KHR_node_visibility, which holds for what hangs below the node too.
 bool isVisible(const GltfFile& file, std::size_t index)
 {
     const auto extension = file.model.nodes[index].extensions.find("KHR_node_visibility");
@@ -184,9 +183,9 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
                     part::expected("it once")});
         }
         met[node.index] = true;
-        if (!isVisible(file, node.index)) {
+        if (node.visible && !isVisible(file, node.index)) {
             warnings.add(MessageId::InvisibleNode, "invisible nodes are left out", nodeLabel(file, node.index));
-            continue;
+            node.visible = false;  // and so is what hangs below it
         }
         const glm::dmat4 own = parentFromNode(file, node.index);
         node.worldFromNode = node.worldFromNode * own;
@@ -194,7 +193,7 @@ std::vector<PlacedNode> placeNodes(const GltfFile& file, const LoadOptions& opti
         placed.push_back(node);
         const std::vector<int>& children = file.model.nodes[node.index].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            pending.push_back({static_cast<std::size_t>(*child), node.worldFromNode, node.worldFromAxes});
+            pending.push_back({static_cast<std::size_t>(*child), node.worldFromNode, node.worldFromAxes, node.visible});
         }
     }
     return placed;

@@ -14,6 +14,7 @@ struct PlacedNode {
     glm::dmat4 worldFromNode;  // affine
     // The linear part for cameras and lights, which have a direction and no size: without the scales of nodes that flatten.
     glm::dmat3 worldFromAxes{1.0};
+    bool visible = true;  // KHR_node_visibility, which leaves cameras as they are
 };
 
 // In document order, parents first. Checks that the nodes form trees.

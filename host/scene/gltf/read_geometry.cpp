@@ -447,7 +447,9 @@ void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Sc
     checkSize(file, nodes);
     GeometryReader reader(file, scene, read, warnings);
     for (const PlacedNode& node : nodes) {
-        reader.addNode(node);
+        if (node.visible) {
+            reader.addNode(node);
+        }
     }
     reader.finish();
 }

@@ -127,7 +127,7 @@ void readLightsAndCameras(const GltfFile& file, const std::vector<PlacedNode>& n
 {
     for (const PlacedNode& node : nodes) {
         const tinygltf::Node& source = file.model.nodes[node.index];
-        if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end()) {
+        if (const auto light = source.extensions.find("KHR_lights_punctual"); light != source.extensions.end() && node.visible) {
             const auto index = static_cast<std::size_t>(light->second.Get("light").GetNumberAsInt());
             scene.lights.push_back(readLight(file, node, index, scene, warnings));
         }
