@@ -69,6 +69,7 @@
     ID(NumberClamped)                                                     \
     ID(NullIgnored)                                                       \
     ID(MatrixRounded)                                                     \
+    ID(LaterVersion) /* of glTF */                                        \
     ID(MeshWithoutPosition)                                               \
     ID(EmptyMesh)                                                         \
     ID(NoTextureCoordinates)                                              \

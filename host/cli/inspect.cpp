@@ -6,6 +6,7 @@
 #include "host/json.hpp"
 #include "host/message.hpp"
 #include "host/render/prepare_scene.hpp"
+#include "host/scene/gltf/extensions.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
 
@@ -178,6 +179,17 @@ Json mediaOf(const PreparedScene& prepared)
     return media;
 }
 
+// What becomes of each extension that the file uses.
+std::vector<std::pair<std::string, const char*>> describeExtensions(const Scene& scene, const char* drawn, const char* ignored,
+                                                                    const char* missing)
+{
+    std::vector<std::pair<std::string, const char*>> described;
+    for (const std::string& name : scene.extensions) {
+        described.emplace_back(name, isMissing(name) ? missing : getEffect(name) == ExtensionEffect::Drawn ? drawn : ignored);
+    }
+    return described;
+}
+
 void printJson(const InspectOptions& options, const PreparedScene& prepared)
 {
     Json cameras = Json::array();
@@ -218,6 +230,7 @@ void printJson(const InspectOptions& options, const PreparedScene& prepared)
                        {"textures", describeTextures(prepared)},
                        {"environment", environmentOf(prepared)},
                        {"media", mediaOf(prepared)},
+                       {"extensions", objectOf(describeExtensions(prepared.scene, "drawn", "ignored", "missing"))},
                        {"variants", prepared.scene.variants},
                        {"animations", animations},
                        {"needs", objectOf(needsOf(getFeatures(prepared)))},
@@ -323,6 +336,10 @@ void printText(const InspectOptions& options, const PreparedScene& prepared)
     }
     std::cout << (*separator == ' ' ? " nothing but flat diffuse triangles\n" : "\n");
     printLooks(prepared);
+    for (const auto& [name, effect] : describeExtensions(prepared.scene, "drawn", "ignored, as it changes no still picture",
+                                                         "missing: the picture lacks what it asks for")) {
+        std::cout << "  extension " << escaped(shortened(name)) << ": " << effect << '\n';
+    }
     for (const std::string& variant : prepared.scene.variants) {
         std::cout << "  variant " << escaped(inQuotes(variant)) << '\n';
     }

@@ -6,8 +6,8 @@
 #include "host/scene/estimate_light.hpp"
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/gltf/animate_gltf.hpp"
-#include "host/scene/gltf/check_gltf_json.hpp"
 #include "host/scene/gltf/edit_gltf.hpp"
+#include "host/scene/gltf/extensions.hpp"
 #include "host/scene/gltf/pose_mesh.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
 #include "host/scene/gltf/read_images.hpp"
@@ -30,12 +30,19 @@ constexpr double kMaxFloat = std::numeric_limits<float>::max();
 void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
-        const ExtensionEffect effect = getEffect(extension);
-        const bool ofMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
-        if ((effect == ExtensionEffect::Looks && !ofMaterials) || effect == ExtensionEffect::Content) {
+        const bool isOfMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
+        if (isMissing(extension) && !isOfMaterials) {
             warnings.add(MessageId::ExtensionIgnored, "extensions are ignored", shortened(extension));
         }
     }
+}
+
+// In the order of their names.
+std::vector<std::string> listExtensions(const GltfFile& file)
+{
+    std::set<std::string> extensions(file.model.extensionsUsed.begin(), file.model.extensionsUsed.end());
+    extensions.insert(file.model.extensionsRequired.begin(), file.model.extensionsRequired.end());
+    return {extensions.begin(), extensions.end()};
 }
 
 std::vector<Animation> listAnimations(const GltfFile& file)
@@ -351,6 +358,7 @@ Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
     scene.nodeNames = namesOf(file_.model.nodes);
     scene.meshNames = namesOf(file_.model.meshes);
     scene.animations = animations_;
+    scene.extensions = listExtensions(file_);
     scene.skins = file_.skins.size();
     scene.morphTargets = countAllMorphTargets(file_);
     scene.showsBackFaces = options_.showsBackFaces;

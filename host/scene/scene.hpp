@@ -209,6 +209,7 @@ struct Scene {
     std::optional<Environment> environment;
     std::vector<std::string> variants;  // names in KHR_materials_variants
     std::vector<Animation> animations;
+    std::vector<std::string> extensions;      // that the file uses; getEffect says what becomes of them
     std::size_t skins = 0, morphTargets = 0;  // of the file
     std::vector<Message> warnings;            // one line each: what was ignored, mapped, dropped or framed
 };

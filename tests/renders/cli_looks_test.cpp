@@ -109,6 +109,26 @@ TEST_F(LooksTest, InspectListsLobesTexturesEnvironmentAndMedia)
     EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out, "  medium 1: index 1.5, absorption (0.693, 0, 0) per metre\n"));
 }
 
+TEST_F(LooksTest, InspectSaysWhatBecomesOfExtensions)
+{
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.document["extensionsUsed"] = {"KHR_xmp_json_ld", "KHR_materials_scatter", "KHR_materials_ior", "VENDOR_toon"};
+    builder.document["extensionsRequired"] = {"KHR_materials_ior", "KHR_interactivity"};
+    writeText(folder_ / "scene.gltf", builder.toGltf());
+    EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("extensions"), json({{"KHR_interactivity", "ignored"},
+                                                                                                {"KHR_materials_ior", "drawn"},
+                                                                                                {"KHR_materials_scatter", "missing"},
+                                                                                                {"KHR_xmp_json_ld", "ignored"},
+                                                                                                {"VENDOR_toon", "missing"}}));
+    const std::string text = run({"inspect", "scene.gltf"}).out;
+    for (const char* line :
+         {"  extension KHR_materials_ior: drawn\n", "  extension KHR_xmp_json_ld: ignored, as it changes no still picture\n",
+          "  extension VENDOR_toon: missing: the picture lacks what it asks for\n"}) {
+        EXPECT_TRUE(contains(text, line)) << text << "lacks: " << line;
+    }
+}
+
 TEST_F(LooksTest, InspectSaysWhatBecomesOfSingleSidedMaterials)
 {
     const auto expectNone = [this] {

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/message.hpp"
+#include "host/scene/gltf/extensions.hpp"
 #include "host/scene/gltf/gltf_file.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 
@@ -23,35 +24,6 @@ namespace glim {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kSupportedExtensions[] = {
-    "EXT_lights_image_based",
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_meshopt_compression",
-    "KHR_node_visibility",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
-};
 
 std::string excerpt(const json& value) { return shortened(value.is_object() ? "an object" : value.is_array() ? "an array" : value.dump()); }
 
@@ -396,9 +368,19 @@ bool isFirstVersion(const json& document)
                                [&](const char* name) { return document.contains(name) && document[name].is_object(); });
 }
 
-bool holdsOneOf(const std::string& name, std::initializer_list<const char*> parts)
+void checkVersion(const std::string& path, const json& asset, Warnings& warnings)
 {
-    return std::any_of(parts.begin(), parts.end(), [&name](const char* part) { return name.find(part) != std::string::npos; });
+    const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");
+    if (version.rfind("2.", 0) != 0 || minVersion != "2.0") {
+        throw InputError(MessageId::UnknownFormat, {part::file(path), ": ", part::place("asset"), " asks for glTF ",
+                                                    part::value(shortened(asset.contains("minVersion") ? minVersion : version)),
+                                                    "; expected ", part::expected("2.0")});
+    }
+    if (version != "2.0") {
+        warnings.add(
+            {MessageId::LaterVersion,
+             {part::place("asset.version"), " is ", part::value(shortened(version)), ": it is read as glTF 2.0, without what is new"}});
+    }
 }
 
 void checkExtensions(const std::string& path, const json& document)
@@ -430,27 +412,6 @@ void checkParts(const std::string& path, const json& document, const json::json_
 }
 
 }  // namespace
-
-bool isSupportedExtension(const std::string& name)
-{
-    return std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions), name) != std::end(kSupportedExtensions);
-}
-
-ExtensionEffect getEffect(const std::string& name)
-{
-    if (isSupportedExtension(name)) {
-        return ExtensionEffect::Supported;
-    }
-    if (holdsOneOf(name, {"_materials_", "_lights_", "_environment", "_techniques_"})) {
-        return ExtensionEffect::Looks;
-    }
-    // Packed textures and levels of detail come beside the core's own.
-    if (holdsOneOf(name, {"_animation", "_xmp", "_audio", "_physics", "_interactivity", "_hoverability", "_selectability", "_metadata",
-                          "_features", "_packing_", "MSFT_lod", "VRM"})) {
-        return ExtensionEffect::None;
-    }
-    return ExtensionEffect::Content;
-}
 
 const SchemaRule* findRule(const std::string& path)
 {
@@ -484,13 +445,7 @@ void checkGltfJson(const std::string& path, json& document, Warnings& warnings)
     checkParts(path, document, json::json_pointer("/cameras"), [](const std::string& type) { return type; });
     checkParts(path, document, json::json_pointer("/extensions/KHR_lights_punctual/lights"),
                [](const std::string& type) { return std::string(type == "spot" ? "spot" : ""); });
-    const json& asset = document.at("asset");
-    const std::string version = asset.value("version", ""), minVersion = asset.value("minVersion", "2.0");
-    if (version.rfind("2.", 0) != 0 || minVersion != "2.0") {
-        throw InputError(MessageId::UnknownFormat, {part::file(path), ": ", part::place("asset"), " asks for glTF ",
-                                                    part::value(shortened(asset.contains("minVersion") ? minVersion : version)),
-                                                    "; expected ", part::expected("2.0")});
-    }
+    checkVersion(path, document.at("asset"), warnings);
     checkExtensions(path, document);
 }
 

@@ -18,15 +18,4 @@ void checkGltfJson(const std::string& path, nlohmann::json& document, Warnings& 
 struct SchemaRule;
 const SchemaRule* findRule(const std::string& path);
 
-bool isSupportedExtension(const std::string& name);
-
-// What a still picture lacks where glim does not read an extension. An unknown one counts as Content.
-enum class ExtensionEffect {
-    Supported,
-    None,     // such as animation and metadata
-    Looks,    // materials and lights
-    Content,  // geometry or images; a file that requires it is refused
-};
-ExtensionEffect getEffect(const std::string& name);
-
 }  // namespace glim

@@ -1,7 +1,7 @@
 #include "host/scene/gltf/read_material.hpp"
 
 #include "host/message.hpp"
-#include "host/scene/gltf/check_gltf_json.hpp"
+#include "host/scene/gltf/extensions.hpp"
 #include "host/scene/gltf/gltf_schema.hpp"
 
 #include <algorithm>
@@ -257,7 +257,7 @@ void MaterialReader::warnOfExtensions()
 {
     for (const auto& [name, extension] : source_.extensions) {
         const bool scatter = name == "KHR_materials_volume_scatter";
-        if (!isSupportedExtension(name)) {
+        if (isMissing(name)) {
             const char* const why = scatter ? " is ignored (light does not scatter within solids)" : " is ignored";
             warnings_.add({MessageId::ExtensionIgnored, {part::value(shortened(name)), why}}, part::place(place_));
         }
