@@ -70,17 +70,50 @@ TEST(LoadGltf, ReadsNoMoreOfABufferThanItNeeds)
     std::filesystem::resize_file(buffer, 0);
 }
 
-TEST(LoadGltf, OtherFormatsAreCalledSo)
+TEST(LoadGltf, OtherFormatsAreNamedWithWhatMakesGltfOfThem)
 {
-    for (const auto& [name, isConverted] : {std::pair("a.obj", true), {"a.dae", true}, {"a.txt", false}}) {
-        try {
-            loadGltf(writeTemporary(name, "v 0 0 0\n"));
-            ADD_FAILURE() << name << " was loaded";
-        } catch (const InputError& error) {
-            expectMessage(error.message(), MessageId::UnknownFormat, {.file = name, .value = "118"});
-            EXPECT_EQ(contains(error.message().expected, "tools/to_gltf"), isConverted) << error.what();
-        }
+    struct Other {
+        const char *name, *start, *format, *remedy;
+    };
+    const Other others[] = {{"a.obj", "v 0 0 0\n", "OBJ", "tools/to_gltf"},
+                            {"a.ply", "ply\nformat ascii 1.0\n", "PLY", "tools/to_gltf"},
+                            {"a.dae", "<?xml version=\"1.0\"?><COLLADA", "COLLADA", "tools/to_gltf"},
+                            {"a.fbx", "Kaydara FBX Binary  ", "FBX", "Blender"},
+                            {"a.usd", "PXR-USDC", "USD", "Blender"},
+                            {"a.usdz", "PK\3\4", "USD in a zip archive", "Blender"},
+                            {"a.blend", "BLENDER-v405", "a file of Blender", "Blender"},
+                            {"a.STL", "\1\1\1\1", "STL", "Blender"},
+                            {"a.3ds", "MM", "3DS", "Blender"},
+                            {"a.abc", "Ogawa", "Alembic", "Blender"},
+                            {"a.step", "ISO-10303-21;", "STEP or IFC", "FreeCAD"},
+                            {"a.zip", "PK\3\4", "a zip archive", "unpack"},
+                            {"a.max", "\xd0\xcf", "a file of another program", "converters"},
+                            // By their first bytes, whatever their names.
+                            {"a.gltf", "#usda 1.0", "USD", "Blender"},
+                            {"a.glb", "PK\3\4", "a zip archive", "unpack"},
+                            {"b.obj", "ply\n", "PLY", "tools/to_gltf"},
+                            {"a.txt", "v 0 0 0\n", "118", ".gltf"}};
+    for (const Other& other : others) {
+        expectRefusal<InputError>([&] { loadGltf(writeTemporary(other.name, other.start)); }, MessageId::UnknownFormat,
+                                  {.file = other.name, .value = other.format, .expected = other.remedy});
     }
+    EXPECT_EQ(loadGltf(writeTemporary("named.obj", oneTriangle().toGltf())).instances.size(), 1U) << "a name alone is no format";
+}
+
+TEST(LoadGltf, LaterVersionsAreReadUnlessTheySayThatTheyCannotBe)
+{
+    GltfBuilder builder = oneTriangle();
+    builder.document["asset"] = {{"version", "2.0"}, {"minVersion", "2.0"}};
+    EXPECT_FALSE(hasWarning(load(builder).warnings, MessageId::LaterVersion));
+    builder.document["asset"] = {{"version", "2.1"}, {"minVersion", "2.0"}};
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.instances.size(), 1U);
+    expectMessage(findWarning(scene.warnings, MessageId::LaterVersion), MessageId::LaterVersion,
+                  {.place = "asset.version", .value = "2.1"});
+    builder.document["asset"]["minVersion"] = "2.1";
+    expectRefused(builder, MessageId::UnknownFormat, {.place = "asset", .value = "2.1", .expected = "2.0"});
+    builder.document["asset"] = {{"version", "3.0"}};
+    expectRefused(builder, MessageId::UnknownFormat, {.place = "asset", .value = "3.0", .expected = "2.0"});
 }
 
 TEST(LoadGltf, RefusesDeepJsonBeforeAnyParserRecurses)

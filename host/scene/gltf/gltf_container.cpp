@@ -2,7 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/input_file.hpp"
-#include "host/text.hpp"
+#include "host/scene/gltf/other_formats.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -127,23 +127,34 @@ GltfContainer readChunks(const std::string& path, PieceReader& reader, const std
     return container;
 }
 
-// Refuses what cannot be a .gltf by its first byte that is no space.
-void checkJsonStart(const std::filesystem::path& file, const std::vector<unsigned char>& start)
+std::string_view withoutSpaces(std::string_view text)
 {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF", kSpaces = " \t\r\n";
-    std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
-    text.remove_prefix(text.substr(0, 3) == kByteOrderMark ? 3 : 0);
-    const std::size_t first = text.find_first_not_of(kSpaces);
-    if (first == std::string_view::npos || text[first] == '{' || text[first] == '[') {
-        return;
+    text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+    text.remove_prefix(std::min(text.find_first_not_of(kSpaces), text.size()));
+    return text;
+}
+
+bool mayBeJson(std::string_view start)
+{
+    const std::string_view text = withoutSpaces(start);
+    return text.empty() || text.front() == '{' || text.front() == '[';
+}
+
+[[noreturn]] void refuseFormat(const std::filesystem::path& file, std::string_view start)
+{
+    const MessagePart path = part::file(file.string());
+    if (const OtherFormat* const format = findOtherFormat(file, start)) {
+        throw InputError(MessageId::UnknownFormat, {path, ": is ", part::value(std::string(format->name)), "; expected ",
+                                                    part::expected("a .gltf or a .glb file, " + std::string(format->remedy))});
     }
-    const std::string extension = lowerCase(file.extension().string());
-    const bool converted = extension == ".obj" || extension == ".ply" || extension == ".dae";
-    throw InputError(
-        MessageId::UnknownFormat,
-        {part::file(file.string()), ": is not glTF: it begins with the byte ",
-         part::value(std::to_string(static_cast<unsigned char>(text[first]))), "; expected ",
-         part::expected("a .gltf or a .glb file" + (converted ? ", which tools/to_gltf makes of " + extension + " files" : ""))});
+    if (file.extension() == ".glb") {
+        throw InputError(MessageId::UnknownFormat,
+                         {path, ": does not start with the bytes ", part::expected("\"glTF\""), "; expected them in a .glb"});
+    }
+    const auto first = static_cast<unsigned char>(withoutSpaces(start).front());
+    throw InputError(MessageId::UnknownFormat, {path, ": is not glTF: it begins with the byte ", part::value(std::to_string(first)),
+                                                "; expected ", part::expected("a .gltf or a .glb file")});
 }
 
 int computeDepth(const std::string& text)
@@ -193,11 +204,10 @@ GltfContainer openContainer(const std::filesystem::path& file)
         }
         return readChunks(path, reader, start);
     }
-    if (file.extension() == ".glb") {
-        throw InputError(MessageId::UnknownFormat,
-                         {part::file(path), ": does not start with the bytes ", part::expected("\"glTF\""), "; expected them in a .glb"});
+    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+    if (file.extension() == ".glb" || !mayBeJson(text)) {
+        refuseFormat(file, text);
     }
-    checkJsonStart(file, start);
     reader.seek(0);
     return {reader.readText(reader.size()), std::nullopt};
 }
