@@ -440,6 +440,16 @@ void GeometryReader::finish()
     }
 }
 
+bool isFlat(const PlacedMesh& mesh)
+{
+    for (std::size_t i = 0; i < mesh.triangleCount(); ++i) {
+        if (faceNormal(mesh.triangle(i)) != glm::dvec3(0.0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Scene& scene, ReadMeshes& read, Warnings& warnings)
@@ -460,14 +470,17 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         return;
     }
     std::size_t triangles = 0;
+    std::vector<bool> flatMeshes(scene.meshes.size(), false);  // in themselves, not only where they stand far away
     for (const MeshInstance& instance : scene.instances) {
-        const PlacedMesh placed(scene, instance);
-        triangles += placed.triangleCount();
-        for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
-            if (faceNormal(placed.triangle(i)) != glm::dvec3(0.0)) {
-                return;
-            }
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        triangles += mesh.indices.size() / 3;
+        if (flatMeshes[instance.mesh]) {
+            continue;
         }
+        if (!isFlat(PlacedMesh(scene, instance))) {
+            return;
+        }
+        flatMeshes[instance.mesh] = isFlat(PlacedMesh(mesh, glm::dmat3(1.0), glm::dvec3(0.0)));
     }
     if (const std::string others = listPointsAndLines(file); triangles == 0 && !others.empty()) {
         refuse(file, MessageId::Unsupported,

@@ -1,5 +1,5 @@
-// Writes streams.glb, pairs of buffer views: a stream of the current encoder, and what its own decoder makes of it. The test that reads them
-// needs none of this; to write them anew: npm install meshoptimizer@1.3.0 && node write_streams.mjs
+// Writes streams.glb, pairs of buffer views: a stream of the current encoder, and what its own decoder makes of it. Tests read the file; to
+// write it anew: npm install meshoptimizer@1.3.0 && node write_streams.mjs
 import { writeFileSync } from 'node:fs';
 import { MeshoptDecoder, MeshoptEncoder } from 'meshoptimizer';
 
@@ -50,9 +50,10 @@ const kinds = {
 	},
 };
 
+const unit = (v, size) => v.map((x, i) => (i < size ? x / Math.hypot(...v.slice(0, size)) : x));
 const filters = {
-	OCTAHEDRAL: [MeshoptEncoder.encodeFilterOct, (v) => { const l = Math.hypot(...v.slice(0, 3)); return [v[0] / l, v[1] / l, v[2] / l, v[3]]; }],
-	QUATERNION: [MeshoptEncoder.encodeFilterQuat, (v) => { const l = Math.hypot(...v); return v.map((x) => x / l); }],
+	OCTAHEDRAL: [MeshoptEncoder.encodeFilterOct, (v) => unit(v, 3)],
+	QUATERNION: [MeshoptEncoder.encodeFilterQuat, (v) => unit(v, 4)],
 	EXPONENTIAL: [MeshoptEncoder.encodeFilterExp, (v) => v.map((x) => 1000 * x)],
 	COLOR: [MeshoptEncoder.encodeFilterColor, (v) => v.map((x) => 0.5 + 0.5 * x)],
 };
