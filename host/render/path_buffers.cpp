@@ -68,9 +68,9 @@ std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups)
 
 std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device)
 {
-    const std::uint64_t most =
-        std::min({std::uint64_t{device.maxGroups} * settings.workgroup, device.maxTexelElements / (kLargestOfPath / 16),
-                  std::min(device.maxStorageBuffer, device.maxAllocation) / kLargestOfPath});
+    const std::uint64_t most = std::min({std::uint64_t{device.maxGroups / kGroupsAtOnce * kGroupsAtOnce} * settings.workgroup,
+                                         device.maxTexelElements / (kLargestOfPath / 16),
+                                         std::min(device.maxStorageBuffer, device.maxAllocation) / kLargestOfPath});
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, kBlockSamples, 1U << 31U));
 }
 

@@ -36,9 +36,6 @@ void checkShadowRays()
 #endif
 
 #if defined(UPDATES_ROUNDS)
-// A queue asks for so many workgroups at once, whenever the last ones are full: so few entries add to their number.
-const uint kGroupsAtOnce = 8u;
-
 bool needsGroups(uint entry, uint share)
 {
     return entry % (kGroupsAtOnce * gl_WorkGroupSize.x * share) == 0u;

@@ -92,6 +92,9 @@ struct Queue {
     uvec3 groups;
 };
 
+// Workgroups that a queue asks for at once, whenever the last ones are full. So few of its entries add to their number.
+GLIM_CONST uint kGroupsAtOnce = 8u;
+
 // What a pass traces in one round: a bounce of the wavefront, or a dispatch of trace_paths.
 struct Round {
     Queue paths;

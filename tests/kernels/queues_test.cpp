@@ -71,7 +71,7 @@ std::uint32_t needed(std::uint32_t entries, std::uint32_t share) { return (entri
 // At least as many as their entries need, and fewer than kGroupsAtOnce more.
 TEST(QueuesTest, CountWorkgroupsAsTheyGrow)
 {
-    constexpr std::uint32_t kGroupsAtOnce = 8, kEntries = kGroupsAtOnce * kGroupSize;  // queues.glsl's
+    constexpr std::uint32_t kEntries = kGroupsAtOnce * kGroupSize;
     for (const std::uint32_t share : {1U, 3U}) {
         for (const std::uint32_t threads : {1U, kGroupSize, kEntries - 1, kEntries, kEntries + 1, 3 * kEntries, 3 * kEntries + 1, 5000U}) {
             SCOPED_TRACE(std::to_string(threads) + " threads, share " + std::to_string(share));
@@ -100,8 +100,8 @@ TEST(QueuesTest, OtherRoundsStayAsTheyWere)
     for (std::uint32_t round = 0; round <= kEmptyRound; ++round) {
         EXPECT_EQ(outcome.rounds[round].paths.count, round == 0 ? 7U : round == 5 ? 100U : 0U);
         EXPECT_EQ(outcome.rounds[round].shadowRays.count, round == 4 ? 34U : 0U);
-        EXPECT_EQ(outcome.rounds[round].paths.groups, uvec3(round == 0 ? 1 : round == 5 ? 8 : 0, 1, 1));
-        EXPECT_EQ(outcome.rounds[round].shadowRays.groups, uvec3(round == 4 ? 8 : 0, 1, 1));
+        EXPECT_EQ(outcome.rounds[round].paths.groups, uvec3(round == 0 ? 1 : round == 5 ? kGroupsAtOnce : 0, 1, 1));
+        EXPECT_EQ(outcome.rounds[round].shadowRays.groups, uvec3(round == 4 ? kGroupsAtOnce : 0, 1, 1));
     }
 }
 
