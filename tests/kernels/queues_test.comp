@@ -20,6 +20,7 @@ void main()
         }
         if (TEST_THREAD == 0u) {
             checkPaths();
+            checkShadowRays();
             countRays(activePaths(), activePaths() + 1u);
         }
         EXPECT_TRUE(share > 0u);

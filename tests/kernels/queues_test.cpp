@@ -115,6 +115,11 @@ TEST(QueuesTest, RaysAreCountedAndOverflowsReported)
     const Outcome more = run(100, 1, 0, makeRounds(103, 2));
     EXPECT_EQ(more.counts.closest, uvec2(100, 0));
     EXPECT_EQ(more.overflows, 3U);
+    std::vector<Round> shadow = makeRounds(0, 0);
+    shadow[0].shadowRays.count = 5000;
+    const std::uint32_t overflows = run(100, 1, 0, shadow).overflows;
+    EXPECT_GE(overflows, 4900U);
+    EXPECT_LE(overflows, 4934U) << "the threads of this dispatch may have queued theirs before";
 }
 
 }  // namespace

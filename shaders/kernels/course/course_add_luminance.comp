@@ -1,6 +1,5 @@
 // One thread is one pixel of the pass. Adds its finished samples, in the order of their index, to the luminance moments that the course's
-// adaptive rule uses. Samples that are not finite are left out.
-// Does nothing while a path is alive.
+// adaptive rule uses. Samples that are not finite are left out. Does nothing while a path is alive.
 // Reads radiance, first hits, rounds. Updates luminance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
