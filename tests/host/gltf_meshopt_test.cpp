@@ -85,8 +85,9 @@ std::vector<Stream> readStreams()
     const std::string path = kFolder + "streams.glb";
     const GltfContainer container = openContainer(path);
     const Bytes binary = readBytes(path, container.binary->size, container.binary->begin);
+    const json document = json::parse(container.json);
     std::vector<Stream> streams;
-    for (const json& view : json::parse(container.json)["bufferViews"]) {
+    for (const json& view : document["bufferViews"]) {
         if (view.contains("extensions")) {
             const json& source = view["extensions"]["KHR_meshopt_compression"];
             const auto first = binary.begin() + source["byteOffset"].get<std::ptrdiff_t>();
