@@ -42,8 +42,8 @@ RaySets captureRays(RenderResources& resources, std::uint32_t pixels)
             sets.primary = download<PathRay>(paths.rays(), pixels);
         } else if (kernel == "shade_surface" && at.pass.bounce == 0) {
             const std::vector<Round> rounds = paths.readRounds();
-            sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), rounds[0].shadowRays.count, pixels);
-            sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), rounds[1].paths.count, pixels);
+            sets.shadow = queued<ShadowRay>(paths.shadowRays(), paths.shadowQueue(), rounds[at.pass.round].shadowRays.count, pixels);
+            sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), rounds[at.pass.round + 1].paths.count, pixels);
         }
     });
     return sets;

@@ -17,15 +17,11 @@ Commands::Commands(const Device& device)
 
 Commands::~Commands()
 {
-    if (started_ && !ended_) {
+    if (submitted_ && !ended_) {
         vkQueueWaitIdle(device_.queue());
     }
     if (ended_) {
-        const auto timed = static_cast<std::uint32_t>(timed_.size());
-        device_.reused().giveBack(std::move(submission_), started_ ? 0 : timed);
-        if (started_) {
-            device_.reused().giveBack(std::move(started_), timed);
-        }
+        device_.reused().giveBack(std::move(submission_), static_cast<std::uint32_t>(timed_.size()));
     }
 }
 
@@ -40,7 +36,7 @@ void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<c
         vkCmdPushConstants(list(), layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()), push.data());
     }
     if (isTimed()) {
-        vkCmdWriteTimestamp(list(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timer().queries.get(),
+        vkCmdWriteTimestamp(list(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, submission_->queries.get(),
                             static_cast<std::uint32_t>(2 * timed_.size()));
     }
 }
@@ -48,7 +44,7 @@ void Commands::begin(const Kernel& kernel, const Bindings& bindings, std::span<c
 void Commands::end(const Kernel& kernel)
 {
     if (isTimed()) {
-        vkCmdWriteTimestamp(list(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timer().queries.get(),
+        vkCmdWriteTimestamp(list(), VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, submission_->queries.get(),
                             static_cast<std::uint32_t>(2 * timed_.size() + 1));
         timed_.push_back(kernel.name());
     }
@@ -153,8 +149,10 @@ void Commands::copyToHost()
     }
 }
 
-void Commands::submit(VkSemaphore done, VkFence fence)
+void Commands::submit(VkSemaphore done)
 {
+    copyToHost();
+    barrier(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);  // once: after each dispatch it cost an H100 1 % of a render
     const VkCommandBuffer commands = list();
     check(vkEndCommandBuffer(commands), "end a command buffer");
     VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
@@ -162,23 +160,12 @@ void Commands::submit(VkSemaphore done, VkFence fence)
     info.pCommandBuffers = &commands;
     info.signalSemaphoreCount = done == VK_NULL_HANDLE ? 0 : 1;
     info.pSignalSemaphores = &done;
-    check(vkQueueSubmit(device_.queue(), 1, &info, fence), "submit work");
+    check(vkQueueSubmit(device_.queue(), 1, &info, submission_->fence.get()), "submit work");
+    submitted_ = true;
 }
 
-void Commands::start()
+void Commands::wait()
 {
-    assert(!started_);
-    std::unique_ptr<Submission> next = device_.reused().take();
-    submit(VK_NULL_HANDLE, VK_NULL_HANDLE);
-    started_ = std::exchange(submission_, std::move(next));
-}
-
-// The fence is signalled once all that was submitted before has ended too.
-void Commands::submitAndWait(VkSemaphore done)
-{
-    copyToHost();
-    barrier(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);  // once: after each dispatch it cost an H100 1 % of a render
-    submit(done, submission_->fence.get());
     check(vkWaitForFences(device_.handle(), 1, submission_->fence.address(), VK_TRUE, UINT64_MAX), "wait for the device");
     ended_ = true;
     device_.instance().refuseMessages();
@@ -188,7 +175,7 @@ std::vector<KernelTime> Commands::times() const
 {
     std::vector<std::uint64_t> ticks(2 * timed_.size());
     if (!ticks.empty()) {
-        check(vkGetQueryPoolResults(device_.handle(), timer().queries.get(), 0, static_cast<std::uint32_t>(ticks.size()),
+        check(vkGetQueryPoolResults(device_.handle(), submission_->queries.get(), 0, static_cast<std::uint32_t>(ticks.size()),
                                     ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
                                     VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
               "read timestamps");

@@ -40,14 +40,20 @@ public:
         write(list());
     }
 
-    // Lets the device begin with the commands so far, while others are recorded. It may be called once.
-    void start();
-    // Runs all commands and waits for their end. It may be called once. `done`, if given, is signalled too. Throws DeviceError if
-    // the device fails or the validation layers have printed a message.
-    void submitAndWait(VkSemaphore done = VK_NULL_HANDLE);
+    // Lets the device run all commands, once those submitted before have ended. It may be called once. `done`, if given, is signalled
+    // at their end.
+    void submit(VkSemaphore done = VK_NULL_HANDLE);
+    bool isSubmitted() const { return submitted_; }
+    // Waits for their end. Throws DeviceError if the device fails or the validation layers have printed a message.
+    void wait();
+    void submitAndWait(VkSemaphore done = VK_NULL_HANDLE)
+    {
+        submit(done);
+        wait();
+    }
 
     // The device time of each dispatch, in their order, kMaxTimed at most; empty if the device has no timestamps. To be called after
-    // submitAndWait.
+    // wait.
     std::vector<KernelTime> times() const;
 
 private:
@@ -58,16 +64,13 @@ private:
     void transition(VkImage image, VkImageLayout from, VkImageLayout to);
 
     void copyToHost();
-    void submit(VkSemaphore done, VkFence fence);
     VkCommandBuffer list() const { return submission_->buffer; }
-    const Submission& timer() const { return started_ ? *started_ : *submission_; }
-    bool isTimed() const { return timer().queries.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed; }
+    bool isTimed() const { return submission_->queries.get() != VK_NULL_HANDLE && timed_.size() < kMaxTimed; }
 
     const Device& device_;
     std::unique_ptr<Submission> submission_;
-    std::unique_ptr<Submission> started_;  // what start() has submitted; its queries time all dispatches
-    bool ended_ = false;                   // on the device
-    std::vector<std::string> timed_;       // kernel names, one per timed dispatch
+    bool submitted_ = false, ended_ = false;
+    std::vector<std::string> timed_;  // kernel names, one per timed dispatch
 };
 
 }  // namespace glim

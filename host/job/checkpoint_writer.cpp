@@ -65,7 +65,7 @@ CheckpointWriter::~CheckpointWriter()
     }
 }
 
-void CheckpointWriter::offer(const Renderer& renderer, bool asked)
+void CheckpointWriter::offer(Renderer& renderer, bool asked)
 {
     asked_ = asked_ || asked;
     if (isUnderWay(writing_)) {
@@ -83,7 +83,7 @@ void CheckpointWriter::offer(const Renderer& renderer, bool asked)
     }
 }
 
-void CheckpointWriter::begin(const Renderer& renderer)
+void CheckpointWriter::begin(Renderer& renderer)
 {
     std::optional<Checkpoint> checkpoint = renderer.checkpoint();
     if (!checkpoint) {

@@ -46,7 +46,7 @@ public:
 
     // To be called often, between passes. Starts a checkpoint in a thread of its own if it is time for one or the user has asked for one.
     // Writing takes at most a hundredth of the time. What cannot be written is said so on stderr, and the render goes on.
-    void offer(const Renderer& renderer, bool asked);
+    void offer(Renderer& renderer, bool asked);
     // Waits for the one under way, but not for the command, which may never end.
     void finish();
     // Gives up the one under way, without waiting for that: the film itself will be there soon.
@@ -54,7 +54,7 @@ public:
     std::optional<WrittenCheckpoint> lastWritten() const;
 
 private:
-    void begin(const Renderer& renderer);
+    void begin(Renderer& renderer);
     std::optional<double> write(const Checkpoint& checkpoint) const;
     void fail(const std::exception& error);
     void runCommand();

@@ -11,6 +11,7 @@ namespace {
 // Input waits only for kPortion dispatches; with eight of them it waited 50 ms longer.
 constexpr double kPassSeconds = 0.1;
 constexpr std::uint32_t kPortion = 2;
+constexpr double kUncheckedSeconds = 0.02;
 constexpr double kMovingSeconds = 0.03;  // aim for a coarse picture: input, picture and presenting stay below 100 ms together
 constexpr double kAloneSeconds = 1.0;    // time after the last move until the halves are kept that a denoiser needs
 constexpr double kStillSeconds = 0.15;   // time after the last move until the full size is started
@@ -20,6 +21,7 @@ RenderSettings startingSettings(RenderSettings settings)
     settings.width = settings.height = 1;
     settings.passSeconds = kPassSeconds;
     settings.portion = kPortion;
+    settings.uncheckedSeconds = kUncheckedSeconds;
     return settings;
 }
 

@@ -17,6 +17,9 @@
 //
 // The host empties the queues of all rounds that it records; kernels count the workgroups that a queue needs as they fill it.
 //
+// Short passes are recorded and submitted while the device still traces the one before. If paths of that one are left at the end of what
+// was recorded, the pass behind it finds so, and does nothing.
+//
 // AOVs insert show_aov before accumulate. The course's estimators have bounces of their own (course.hpp).
 #include "host/render/pass_tracer.hpp"
 
@@ -31,30 +34,61 @@ namespace {
 // Bounces recorded at once, after those that earlier passes needed: then the host checks whether any path is alive.
 constexpr std::uint32_t kMoreBounces = 8;
 
-// The first rounds of those recorded at once that had a path.
-std::uint32_t countRounds(const std::vector<Round>& rounds)
+// How many of the pass's rounds had a path.
+std::uint32_t countRounds(const std::vector<Round>& rounds, std::uint32_t first)
 {
-    const auto empty = std::find_if(rounds.begin(), rounds.end(), [](const Round& round) { return round.paths.count == 0; });
-    return static_cast<std::uint32_t>(empty - rounds.begin());
+    const auto begin = rounds.begin() + first, end = begin + kRoundsOfPass;
+    const auto empty = std::find_if(begin, end, [](const Round& round) { return round.paths.count == 0; });
+    return static_cast<std::uint32_t>(empty - begin);
 }
 
 }  // namespace
 
-std::optional<PassSeconds> PassTracer::trace(const Tile& tile, Pass pass, const std::function<bool()>& shouldContinue)
+std::optional<PassSeconds> PassTracer::trace(const Tile& tile, const Pass& pass, const std::function<bool()>& shouldContinue)
 {
     Recording recording(resources_.device, resources_.statistics, portion(), shouldContinue);
-    if (!traceToEnd(recording, tile, pass, [&](const Pass& end) { recordEnd(recording, tile, end); })) {
-        return std::nullopt;
-    }
-    if (recording.total() > 0.0) {
-        resources_.history.seconds = recording.total();
-    }
-    return PassSeconds{recording.longest(), recording.total()};
+    PassProgress progress = begin(recording, tile, pass, true);
+    return finish(recording, tile, progress) ? std::optional(secondsOf(recording)) : std::nullopt;
 }
 
 void PassTracer::tracePaths(Recording& recording, const Tile& tile, const Pass& pass)
 {
-    traceToEnd(recording, tile, pass, [](const Pass&) {});
+    PassProgress progress = begin(recording, tile, pass, false);
+    finish(recording, tile, progress);
+}
+
+bool PassTracer::startsAhead() const
+{
+    const bool isTimed = resources_.device.description().nanosecondsPerTick > 0.0F;  // the host would time the pass before too
+    const RenderSettings& settings = resources_.settings;
+    return isTimed && portion() == kMaxTimed && resources_.history.rounds <= kMaxRounds && !usesCourseEstimators(settings) &&
+           !isCourse(settings.adaptive);
+}
+
+std::unique_ptr<StartedPass> PassTracer::start(const Tile& tile, const Pass& pass)
+{
+    const auto always = [] { return true; };
+    std::unique_ptr<StartedPass> started(
+        new StartedPass{{resources_.device, resources_.statistics, kMaxTimed, always}, tile, {}});
+    Pass stopping = pass;
+    stopping.accumulate |= kStopsNext;
+    started->progress = begin(started->recording, tile, stopping, true);
+    started->recording.start();
+    return started;
+}
+
+PassTracer::Ended PassTracer::end(StartedPass& started)
+{
+    finish(started.recording, started.tile, started.progress);
+    return {secondsOf(started.recording), (started.progress.pass.accumulate & kStopsNext) == 0};
+}
+
+PassSeconds PassTracer::secondsOf(const Recording& recording) const
+{
+    if (recording.total() > 0.0) {
+        resources_.history.seconds = recording.total();
+    }
+    return {recording.longest(), recording.total()};
 }
 
 std::uint32_t PassTracer::portion() const
@@ -63,46 +97,73 @@ std::uint32_t PassTracer::portion() const
 }
 
 // Records as many rounds, bounces or dispatches of trace_paths, as may suffice, and the end of the pass, whose kernels do nothing while a
-// path is alive. So the host waits once per pass, and rarely again. Returns false if the recording was stopped before the end.
-bool PassTracer::traceToEnd(Recording& recording, const Tile& tile, Pass pass, const std::function<void(const Pass&)>& recordEnd)
+// path is alive. So the host waits once per pass, and rarely again.
+PassProgress PassTracer::begin(Recording& recording, const Tile& tile, Pass pass, bool addsSamples) const
 {
-    const bool persistent = kernels().tracePaths.has_value();
-    const std::uint32_t last = persistent ? ~0U : pathLengths(resources_.settings).maxBounces;
-    std::uint32_t& usual = resources_.history.rounds;
-    std::uint32_t alive = pass.pixelCount * pass.sampleCount;
+    resources_.history.firstRound = kRoundsOfPass - resources_.history.firstRound;
+    pass.round = resources_.history.firstRound;
+    PassProgress progress{pass, addsSamples, pass.round, 0, pass.pixelCount * pass.sampleCount};
+    writeRounds(recording, progress.firstRound, progress.alive, isPersistent() ? pathsPerThread() : 1);
     // generate_rays fills the queue that bounce 0 reads: the next queue of the odd bindings.
-    recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, resources_.countGroups(alive));
-    std::uint32_t rounds = usual;
-    while (!recording.isStopped() && pass.bounce <= last) {
-        const std::uint32_t before = pass.bounce;
-        recordRounds(recording, alive, persistent ? rulesOf(resources_.device.description().deviceClass).pathsPerThread : 1);
-        for (pass.round = 0; pass.round < std::min(rounds, kMaxRounds) && pass.bounce <= last; ++pass.round, ++pass.bounce) {
-            recordRound(recording, tile.bindings(pass.bounce % 2), pass);
-            if (!persistent && pass.bounce == 0 && rounds > 1) {
-                recording.start();  // most paths are in bounce 0: the host records the others meanwhile
-            }
-        }
-        recordEnd(pass);
-        const bool isWhole = !recording.isStopped();
-        recording.finish();
-        const std::vector<Round> traced = resources_.paths().readRounds();
-        alive = traced[pass.round].paths.count;
-        if (isWhole && alive == 0) {
-            // Of many paths the longest varies by a few surfaces.
-            const std::uint32_t needed = before + countRounds(traced);
-            usual = std::max(needed + (persistent ? 0 : 2 + needed / 8), usual - 1);
-            return true;
-        }
-        rounds = persistent ? 1 : kMoreBounces;
-    }
-    return false;
+    recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, resources_.countGroups(progress.alive));
+    recordRounds(recording, tile, progress, resources_.history.rounds);
+    return progress;
 }
 
-// Begins round 0 with `paths`, of which a thread takes `share`.
-void PassTracer::recordRounds(Recording& recording, std::uint32_t paths, std::uint32_t share) const
+// Runs what begin() recorded, and more rounds while paths are alive. Returns false if the recording was stopped before the end.
+bool PassTracer::finish(Recording& recording, const Tile& tile, PassProgress& progress) const
+{
+    for (;;) {
+        const bool isWhole = !recording.isStopped();
+        recording.finish();
+        if (isWhole && isOver(progress)) {
+            return true;
+        }
+        if (recording.isStopped() || progress.pass.bounce > lastBounce()) {
+            return false;
+        }
+        if ((progress.pass.accumulate & kStopsNext) != 0) {
+            progress.pass.accumulate &= ~kStopsNext;
+            const Round none = makeRounds(0, 0)[kLeftRound];
+            recording.write(resources_.paths().rounds(), kLeftRound * sizeof(Round), std::span(&none, 1));
+        }
+        progress.from = progress.pass.bounce;
+        writeRounds(recording, progress.firstRound, progress.alive, isPersistent() ? pathsPerThread() : 1);
+        recordRounds(recording, tile, progress, isPersistent() ? 1 : kMoreBounces);
+    }
+}
+
+bool PassTracer::isOver(PassProgress& progress) const
+{
+    const std::vector<Round> rounds = resources_.paths().readRounds();
+    progress.alive = rounds[progress.pass.round].paths.count;
+    if (progress.alive > 0) {
+        return false;
+    }
+    // Of many paths the longest varies by a few surfaces.
+    const std::uint32_t needed = progress.from + countRounds(rounds, progress.firstRound);
+    std::uint32_t& usual = resources_.history.rounds;
+    usual = std::max(needed + (isPersistent() ? 0 : 2 + needed / 8), usual - 1);
+    return true;
+}
+
+void PassTracer::recordRounds(Recording& recording, const Tile& tile, PassProgress& progress, std::uint32_t count) const
+{
+    Pass& pass = progress.pass;
+    const std::uint32_t end = progress.firstRound + std::min(count, kMaxRounds);
+    for (pass.round = progress.firstRound; pass.round < end && pass.bounce <= lastBounce(); ++pass.round, ++pass.bounce) {
+        recordRound(recording, tile.bindings(pass.bounce % 2), pass);
+    }
+    if (progress.addsSamples) {
+        recordEnd(recording, tile, pass);
+    }
+}
+
+// Begins round `first` with `paths`, of which a thread takes `share`.
+void PassTracer::writeRounds(Recording& recording, std::uint32_t first, std::uint32_t paths, std::uint32_t share) const
 {
     const std::vector<Round> rounds = makeRounds(paths, resources_.countGroups((paths + share - 1) / share));
-    recording.write(resources_.paths().rounds(), 0, std::span<const Round>(rounds));
+    recording.write(resources_.paths().rounds(), first * sizeof(Round), std::span(rounds).first(kRoundsOfPass));
 }
 
 // Adds the samples to the film.
@@ -146,9 +207,8 @@ std::optional<PassSeconds> PassTracer::traceLight(const SplatBuffer::Band& band,
     pass.firstSample = firstSample;
     pass.sampleCount = 1;
     Recording recording(resources_.device, resources_.statistics, portion(), shouldContinue);
-    const std::uint32_t share = rulesOf(resources_.device.description().deviceClass).pathsPerThread;
     for (std::uint32_t alive = count; alive > 0 && !recording.isStopped(); ++pass.bounce) {
-        recordRounds(recording, alive, share);
+        writeRounds(recording, 0, alive, pathsPerThread());
         recording.dispatchIndirect(*kernels().traceLightPaths, band.bindings(1 - pass.bounce % 2), pass, resources_.paths().rounds(),
                                    groupsOfPaths(0));
         recording.finish();

@@ -61,7 +61,7 @@ std::vector<BindingSlot> kernelSlots()
 std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups)
 {
     constexpr Queue kEmpty{0, uvec3(0, 1, 1)};
-    std::vector<Round> rounds(kEmptyRound + 1, Round{kEmpty, kEmpty});
+    std::vector<Round> rounds(kRounds, Round{kEmpty, kEmpty});
     rounds[0].paths = {paths, uvec3(groups, 1, 1)};
     return rounds;
 }
@@ -94,7 +94,7 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       queueA_(makeArray<uint>(device, "queue's entries", capacity)),
       queueB_(makeArray<uint>(device, "queue's entries", capacity)),
       shadowQueue_(makeArray<uint>(device, "shadow queue's entries", capacity)),
-      rounds_(makeArray<Round>(device, "rounds", kEmptyRound + 1, BufferKind::Readback)),
+      rounds_(makeArray<Round>(device, "rounds", kRounds, BufferKind::Readback)),
       rayCounts_(device, "ray counts", BufferKind::Readback, sizeof(RayCounts)),
       note_(device, "path's note", BufferKind::Readback, sizeof(PathNote)),
       status_(device, "status words", BufferKind::Readback, sizeof(Status))
@@ -112,7 +112,7 @@ void PathBuffers::clearCounters()
 
 std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
 {
-    return capacity * kPathBytes + (kEmptyRound + 1) * sizeof(Round) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
+    return capacity * kPathBytes + kRounds * sizeof(Round) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
 }
 
 BufferMap PathBuffers::buffers(std::uint32_t parity) const

@@ -20,7 +20,7 @@ using BufferMap = std::map<std::uint32_t, const Buffer*>;
 // The binding slots of all kernels of a pass (shaders/kernels).
 std::vector<BindingSlot> kernelSlots();
 
-// Rounds of which only the first has paths, for `groups` workgroups.
+// The rounds of all passes, of which only the first has paths, for `groups` workgroups.
 std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups);
 // Where the group counts of a round are, in bytes from the start of the rounds.
 constexpr std::uint64_t groupsOfPaths(std::uint32_t round)
@@ -66,7 +66,7 @@ public:
     const Buffer& nextQueue(std::uint32_t parity) const { return parity == 0 ? queueB_ : queueA_; }
     const Buffer& shadowQueue() const { return shadowQueue_; }
     const Buffer& rounds() const { return rounds_; }
-    std::vector<Round> readRounds() const { return download<Round>(rounds_, kEmptyRound + 1); }
+    std::vector<Round> readRounds() const { return download<Round>(rounds_, kRounds); }
     const Buffer& rayCounts() const { return rayCounts_; }
     const Buffer& status() const { return status_; }
 

@@ -83,7 +83,7 @@ void Recording::keepTogether(std::uint32_t dispatches)
 void Recording::start()
 {
     if (commands_) {
-        commands_->start();
+        commands_->submit();
     }
 }
 
@@ -93,7 +93,10 @@ void Recording::finish()
         return;
     }
     const auto start = Clock::now();
-    commands_->submitAndWait();
+    if (!commands_->isSubmitted()) {
+        commands_->submit();
+    }
+    commands_->wait();
     const double waited = secondsSince(start);
     const std::vector<KernelTime> times = commands_->times();
     if (times.empty()) {  // the device has no clock: no dispatch took longer than all of them

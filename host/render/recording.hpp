@@ -50,7 +50,7 @@ public:
     }
     // The next dispatches, so many, run all or not at all.
     void keepTogether(std::uint32_t dispatches);
-    // Lets the device begin with what is recorded, while the next dispatches are; once before each finish().
+    // Lets the device run what is recorded while the host goes on. The next call is finish().
     void start();
     // Runs what has not run yet.
     void finish();

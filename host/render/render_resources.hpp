@@ -33,6 +33,7 @@ struct LastingResources {
 // What the last passes tell of the next one. No bit depends on it.
 struct PassHistory {
     std::uint32_t rounds;                                      // to record at once
+    std::uint32_t firstRound = 0;                              // of the last pass
     double seconds = std::numeric_limits<double>::infinity();  // of the device
 };
 

@@ -70,6 +70,7 @@ void Renderer::begin()
 
 void Renderer::setSampling(const RenderSettings& settings)
 {
+    settle();
     settings_.sampleBegin = settings.sampleBegin;
     settings_.sampleEnd = settings.sampleEnd;
     settings_.seconds = settings.seconds;
@@ -79,6 +80,7 @@ void Renderer::setSampling(const RenderSettings& settings)
 
 void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
+    settle();
     settings_.width = width;
     settings_.height = height;
     resources_->parameters.setCamera(camera, width, height);
@@ -88,6 +90,7 @@ void Renderer::restart(const FlatCamera& camera, std::uint32_t width, std::uint3
 
 void Renderer::restart(const FlatScene& scene, const FlatCamera& camera, std::uint32_t width, std::uint32_t height)
 {
+    settle();
     settings_.width = width;
     settings_.height = height;
     sceneIdentity_ = SceneIdentity(scene);
@@ -104,6 +107,7 @@ void Renderer::restart(const FlatScene& scene, const FlatCamera& camera, std::ui
 
 void Renderer::restart(const FlatCamera& camera, std::uint32_t seed)
 {
+    settle();
     settings_.seed = seed;
     resources_->parameters.setSeed(seed);
     restart(camera, settings_.width, settings_.height);
@@ -126,9 +130,10 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
     const auto shouldContinue = [&] { return asks(observer) || secondsSince(begin) < settings_.passSeconds; };
     const auto isEnough = [&] { return criterion && isGoodEnough(criterion); };
     if (!(plan_.resumedSamples() > 0 && isEnough())) {
-        while (advance(shouldContinue) && !isOver(observer) && !isEnough()) {
+        while (step(shouldContinue, true) && !isOver(observer) && !isEnough()) {
             begin = Clock::now();
         }
+        settle();
     }
     if (atEnd) {
         atEnd();
@@ -141,7 +146,10 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
     return film;
 }
 
-bool Renderer::advance(const std::function<bool()>& shouldContinue)
+bool Renderer::advance(const std::function<bool()>& shouldContinue) { return step(shouldContinue, false); }
+
+// `startsAhead`: may leave the pass to the device, and end it later.
+bool Renderer::step(const std::function<bool()>& shouldContinue, bool startsAhead)
 {
     while (plan_.beginRound()) {
         carryOutTasks();
@@ -150,38 +158,83 @@ bool Renderer::advance(const std::function<bool()>& shouldContinue)
         return false;
     }
     if (const auto pass = light_ ? plan_.nextLight(light_->paths()) : std::nullopt) {
+        settle();
         return trace(*pass, shouldContinue);
     }
     const CameraPass pass = plan_.next(passSize_.paths());
-    if (!trace(pass, shouldContinue)) {
-        return false;
+    if (startsAhead && PassTracer(*resources_).startsAhead()) {
+        start(pass);
+    } else {
+        settle();
+        if (!trace(pass, shouldContinue)) {
+            return false;
+        }
     }
     plan_.finish(pass, passSize_.paths());
     carryOutTasks();
     return true;
 }
 
-// Returns false if `shouldContinue` ended the pass before it was done.
-bool Renderer::trace(const CameraPass& planned, const std::function<bool()>& shouldContinue)
+Pass Renderer::passOf(const CameraPass& planned) const
 {
-    const Tile& tile = *films_->tiles()[planned.tile];
-    Pass pass = tile.pass();
+    Pass pass = films_->tiles()[planned.tile]->pass();
     pass.firstPixel = planned.firstPixel;
     pass.pixelCount = planned.pixelCount;
     pass.firstSample = planned.firstSample;
     pass.sampleCount = planned.sampleCount;
-    const auto seconds = PassTracer(*resources_).trace(tile, pass, shouldContinue);
+    return pass;
+}
+
+// Returns false if `shouldContinue` ended the pass before it was done.
+bool Renderer::trace(const CameraPass& planned, const std::function<bool()>& shouldContinue)
+{
+    const auto seconds = PassTracer(*resources_).trace(*films_->tiles()[planned.tile], passOf(planned), shouldContinue);
     refuseBrokenStatus(resources_->device.description(), resources_->paths());
-    if (!seconds) {
-        return false;
+    if (seconds) {
+        learn(planned.paths(), *seconds);
     }
+    return seconds.has_value();
+}
+
+// Ends the pass before, which the device traces while this one is recorded.
+void Renderer::start(const CameraPass& planned)
+{
+    PassTracer tracer(*resources_);
+    const Tile& tile = *films_->tiles()[planned.tile];
+    std::unique_ptr<StartedPass> next = tracer.start(tile, passOf(planned));
+    if (started_ && endStarted()) {
+        next->recording.finish();
+        next = tracer.start(tile, passOf(planned));
+    }
+    started_ = std::move(next);
+}
+
+// Returns whether the pass was late.
+bool Renderer::endStarted()
+{
+    const PassTracer::Ended ended = PassTracer(*resources_).end(*started_);
+    refuseBrokenStatus(resources_->device.description(), resources_->paths());
+    learn(started_->progress.pass.pixelCount * started_->progress.pass.sampleCount, ended.seconds);
+    return ended.wasLate;
+}
+
+// Whatever else uses the film or the device's paths comes after it.
+void Renderer::settle()
+{
+    if (started_) {
+        endStarted();
+        started_.reset();
+    }
+}
+
+void Renderer::learn(std::uint32_t paths, const PassSeconds& seconds)
+{
     if (statistics_.samples == 0) {
         statistics_.firstPassSeconds = statistics_.uploadSeconds + statistics_.compileSeconds + secondsSinceStart();
     }
-    statistics_.samples += planned.paths();
-    addSeconds(*seconds);
-    passSize_.learn(planned.paths(), *seconds);
-    return true;
+    statistics_.samples += paths;
+    addSeconds(seconds);
+    passSize_.learn(paths, seconds);
 }
 
 bool Renderer::trace(const LightPass& pass, const std::function<bool()>& shouldContinue)
@@ -213,6 +266,7 @@ void Renderer::carryOutTasks()
 
 void Renderer::carryOut(PlanTask task)
 {
+    settle();
     const SquaredError error = settings_.adaptive == Adaptive::Neighbours ? SquaredError::Relative : SquaredError::Absolute;
     switch (task) {
     case PlanTask::ChooseAllPixels: films_->chooseAllPixels(); break;
@@ -252,6 +306,7 @@ bool Renderer::isGoodEnough(const StoppingCriterion& criterion)
 
 Film Renderer::film()
 {
+    settle();
     Film film = films_->sum();
     readCounters();
     describe(film);
@@ -282,8 +337,9 @@ void Renderer::readCounters()
     statistics_.peakDeviceMemory = resources_->device.peakMemory();
 }
 
-std::optional<Checkpoint> Renderer::checkpoint() const
+std::optional<Checkpoint> Renderer::checkpoint()
 {
+    settle();
     std::optional<SampleProgress> progress = plan_.progress();
     if (!progress) {
         return std::nullopt;
@@ -306,6 +362,7 @@ void Renderer::resume(Checkpoint checkpoint)
 
 std::optional<Film> Renderer::sampleControl(const Film& film, const std::function<bool()>& shouldContinue)
 {
+    settle();
     const double share = std::max(0.01, 64.0 / static_cast<double>(film.pixels.size()));
     std::vector<std::uint32_t> needed(film.pixels.size(), 0);
     std::mt19937 random(settings_.seed);

@@ -6,7 +6,9 @@
 #include "host/render/film_identity.hpp"
 #include "host/render/light_passes.hpp"
 
+#include <cassert>
 #include <functional>
+#include <memory>
 
 namespace glim {
 
@@ -55,7 +57,7 @@ public:
     Film render(const RenderObserver& observer, const StoppingCriterion& criterion = nullptr, const std::function<void()>& atEnd = nullptr);
 
     // What there is between two passes or at the end, if the plan has progress to go on from.
-    std::optional<Checkpoint> checkpoint() const;
+    std::optional<Checkpoint> checkpoint();
     // Goes on from a checkpoint of this picture, which the plan can resume, as if there had been no interruption. To be called before
     // render.
     void resume(Checkpoint checkpoint);
@@ -72,7 +74,11 @@ public:
     Film film();
     // Of this picture, from now on.
     void keepHalves() { films_->keepHalves(); }
-    PixelMoments moments(std::uint32_t pixel) { return films_->sum(pixel); }  // as in film(), but faster
+    PixelMoments moments(std::uint32_t pixel)  // as in film(), but faster
+    {
+        settle();
+        return films_->sum(pixel);
+    }
 
     // What the next picture has of samples, seed and time. The other settings must be the same as before.
     void setSampling(const RenderSettings& settings);
@@ -86,10 +92,18 @@ public:
     void restart(const FlatCamera& camera, std::uint32_t seed);
 
     const SamplePlan& plan() const { return plan_; }
-    const FilmAccumulator& films() const { return *films_; }
+    const FilmAccumulator& films() const
+    {
+        assert(!started_);
+        return *films_;
+    }
     const RenderSettings& settings() const { return settings_; }
     // For what is traced between passes, such as single rays (ray_tracer.hpp) and samples (replay.hpp).
-    RenderResources& resources() const { return *resources_; }
+    RenderResources& resources() const
+    {
+        assert(!started_);
+        return *resources_;
+    }
     const RenderStatistics& statistics() const { return statistics_; }
     // Those of the next picture begin at 0, as if the scene had been there before.
     void clearStatistics();
@@ -99,8 +113,14 @@ private:
     Film emptyFilmOf(const FlatCamera& camera) const;
     void begin();
     double secondsSinceStart() const { return secondsSince(start_); }
+    bool step(const std::function<bool()>& shouldContinue, bool startsAhead);
     bool trace(const LightPass& pass, const std::function<bool()>& shouldContinue);
     bool trace(const CameraPass& pass, const std::function<bool()>& shouldContinue);
+    Pass passOf(const CameraPass& planned) const;
+    void start(const CameraPass& pass);
+    bool endStarted();
+    void settle();
+    void learn(std::uint32_t paths, const PassSeconds& seconds);
     void addSeconds(const PassSeconds& seconds);
     void carryOutTasks();
     void carryOut(PlanTask task);
@@ -122,6 +142,7 @@ private:
     std::optional<LightPasses> light_;  // of scenes whose caustics need them
     std::optional<FilmAccumulator> films_;
     SamplePlan plan_;
+    std::unique_ptr<StartedPass> started_;  // counted by the plan, but not yet ended; only while render() runs
 };
 
 }  // namespace glim

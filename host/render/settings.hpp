@@ -102,7 +102,7 @@ struct RenderSettings {
     std::optional<std::uint32_t> pathCapacity;  // paths in flight, at least kBlockSamples; by default what suits the device
     std::uint32_t tilePixels = 1U << 20;        // most pixels of a tile: no buffer of the film exceeds 128 MiB, Vulkan's least limit
     std::uint32_t portion = 64;                 // dispatches between two checks whether the pass goes on, unless passes take
-    double uncheckedSeconds = 0.02;             // less than this
+    double uncheckedSeconds = 0.05;             // less than this; then two may be in flight
     double passSeconds = 1.0;                   // the most that a pass should take; callers wait for its end
 
     std::uint32_t rowBegin() const { return rows ? rows->first : 0; }

@@ -1,12 +1,13 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block into the
-// page when the block ends. So the bits do not depend on how the samples were divided into passes. Does nothing while a path is alive.
+// page when the block ends. So the bits do not depend on how the samples were divided into passes. Adds nothing while a path is alive, of
+// this pass or left by the one before.
 // Reads radiance, first hits, rounds. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are
-// not finite and leaves them out.
+// not finite and leaves them out. May say that paths are left.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
 #define READS_FIRST_HITS
-#define READS_ROUNDS
+#define UPDATES_ROUNDS
 #define UPDATES_FILM
 #include "access/paths.glsl"
 #include "access/status.glsl"
@@ -87,7 +88,12 @@ void addPixel(PassPixel from)
 void main()
 {
     uint pixel = interleavedInvocation();
-    if (pixel < pass.pixelCount && activePaths() == 0u) {
+    uint alive = activePaths();
+    if (alive > 0u) {
+        if (pixel == 0u && (pass.accumulate & kStopsNext) != 0u) {
+            rounds[kLeftRound].paths.count = alive;
+        }
+    } else if (pixel < pass.pixelCount && rounds[kLeftRound].paths.count == 0u) {
         addPixel(passPixel(pixel));
     }
     checkLoopBudget(render.canarySteps);

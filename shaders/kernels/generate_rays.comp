@@ -1,12 +1,14 @@
-// One thread is one slot of the pass: a sample of a pixel. Starts its path at the camera.
+// One thread is one slot of the pass: a sample of a pixel. Starts its path at the camera. If paths of the pass before are left, the pass
+// has no path.
 // Reads the parameters and, if rays begin in different media, the scene. Writes rays, states, radiance and, to the next queue,
-// all slots.
+// all slots. May empty its round.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_RAYS
 #define WRITES_STATES
 #define WRITES_RADIANCE
 #define WRITES_NEXT_QUEUE
+#define UPDATES_ROUNDS
 #include "access/paths.glsl"
 #include "access/start_media.glsl"
 #include "access/status.glsl"
@@ -22,7 +24,11 @@ PathRay rayThrough(FlatCamera camera, SampleId id, vec2 film)
 void main()
 {
     uint slot = interleavedInvocation();
-    if (slot < pass.pixelCount * pass.sampleCount) {
+    if (rounds[kLeftRound].paths.count > 0u) {
+        if (slot == 0u) {
+            rounds[pass.round].paths = Queue(0u, uvec3(0u, 1u, 1u));
+        }
+    } else if (slot < pass.pixelCount * pass.sampleCount) {
         SampleId id = makeSampleId(slot);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);

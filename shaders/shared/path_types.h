@@ -103,8 +103,11 @@ struct Round {
 
 // Rounds that are recorded at once, at most. The kernels of the last one queue paths for the round after it.
 GLIM_CONST uint kMaxRounds = 64u;
-// Has no paths.
-GLIM_CONST uint kEmptyRound = kMaxRounds + 1u;
+GLIM_CONST uint kRoundsOfPass = kMaxRounds + 1u;
+// Behind the rounds of two passes, one of which may have been recorded while the device traces the other.
+GLIM_CONST uint kEmptyRound = 2u * kRoundsOfPass;  // has no paths
+GLIM_CONST uint kLeftRound = kEmptyRound + 1u;     // paths that a pass with kStopsNext has left: passes after it do nothing
+GLIM_CONST uint kRounds = kLeftRound + 1u;
 
 // Rays traced so far in this render, 64 bits in two words.
 struct RayCounts {
@@ -148,6 +151,7 @@ struct Splat {
 
 GLIM_CONST uint kEndsBlock = 1u;   // accumulate folds the block into the page afterwards, whole or not
 GLIM_CONST uint kEveryPixel = 2u;  // the pass goes over all pixels of the tile, whichever are chosen
+GLIM_CONST uint kStopsNext = 4u;   // if paths are left, passes after it do nothing: the device has one already
 
 // A pixel of a pass over some pixels of a tile, which need not have had the same number of samples before.
 struct ChosenPixel {
@@ -165,7 +169,7 @@ struct Pass {
     uint firstSample;
     uint sampleCount;
     uint bounce;      // surfaces that the paths of the active queue have met
-    uint accumulate;  // kEndsBlock | kEveryPixel
+    uint accumulate;  // kEndsBlock | kEveryPixel | kStopsNext
     uint round;       // of those recorded at once
 };
 
