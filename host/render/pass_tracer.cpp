@@ -68,8 +68,7 @@ bool PassTracer::startsAhead() const
 std::unique_ptr<StartedPass> PassTracer::start(const Tile& tile, const Pass& pass)
 {
     const auto always = [] { return true; };
-    std::unique_ptr<StartedPass> started(
-        new StartedPass{{resources_.device, resources_.statistics, kMaxTimed, always}, tile, {}});
+    std::unique_ptr<StartedPass> started(new StartedPass{{resources_.device, resources_.statistics, kMaxTimed, always}, tile, {}});
     Pass stopping = pass;
     stopping.accumulate |= kStopsNext;
     started->progress = begin(started->recording, tile, stopping, true);
