@@ -81,7 +81,7 @@
     ID(UnterminatedJpeg)                                                  \
     ID(GreyImage)                                                         \
     ID(UnknownSampler)                                                    \
-    ID(PointsLeftOut)                                                     \
+    ID(SplatsAsPoints)                                                    \
     ID(LinesLeftOut)                                                      \
     ID(TextureWithoutSource)                                              \
     ID(TooManyUvSets)                                                     \

@@ -31,9 +31,19 @@ struct InspectOptions {
 using Counts = std::vector<std::pair<const char*, std::size_t>>;
 using Needs = std::vector<std::pair<const char*, bool>>;
 
+std::size_t countPoints(const Scene& scene)
+{
+    std::size_t points = 0;
+    for (const MeshInstance& instance : scene.instances) {
+        points += scene.meshes[instance.mesh].isCloud ? scene.meshes[instance.mesh].positions.size() : 0;
+    }
+    return points;
+}
+
 Counts countsOf(const PreparedScene& prepared)
 {
     return {{"triangles", prepared.primitives.computeTriangleCount()},
+            {"points", countPoints(prepared.scene)},
             {"spheres", prepared.scene.spheres.size()},
             {"meshes", prepared.scene.meshes.size()},
             {"instances", prepared.scene.instances.size()},

@@ -18,7 +18,7 @@ namespace {
 constexpr double kWorthwhile = 0.9;
 
 // Rounded outwards.
-Box computeBox(const Sphere& sphere) { return roundOutwards({sphere.center - sphere.radius, sphere.center + sphere.radius}); }
+Box computeBox(const PlacedSphere& sphere) { return roundOutwards({sphere.center - sphere.radius, sphere.center + sphere.radius}); }
 
 std::vector<Box> boxesOf(std::span<const Triangle> triangles)
 {
@@ -120,7 +120,7 @@ bool areSame(const Triangle& a, const Triangle& b)
     return a.vertices[0] == b.vertices[0] && a.vertices[1] == b.vertices[1] && a.vertices[2] == b.vertices[2];
 }
 
-bool areSame(const Sphere& a, const Sphere& b) { return a.center == b.center && a.radius == b.radius; }
+bool areSame(const PlacedSphere& a, const PlacedSphere& b) { return a.center == b.center && a.radius == b.radius; }
 
 bool areSame(const Placement& a, const Placement& b)
 {
@@ -253,7 +253,7 @@ WideBvh refitOrBuild(WideBvh previous, const Primitives& before, const Primitive
 std::vector<Box> primitiveBoxes(const Primitives& primitives)
 {
     std::vector<Box> boxes = boxesOf(primitives.triangles);
-    for (const Sphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres) {
         boxes.push_back(computeBox(sphere));
     }
     return boxes;

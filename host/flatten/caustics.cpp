@@ -43,7 +43,7 @@ BoundingSphere boundingSphere(std::span<const BoundingSphere> spheres)
     return bound;
 }
 
-BoundingSphere computeBoundingSphere(const Sphere& sphere)
+BoundingSphere computeBoundingSphere(const PlacedSphere& sphere)
 {
     const double radius = static_cast<double>(sphere.radius);
     return {sphere.center, radius, 4.0 * pi * radius * radius};
@@ -170,7 +170,7 @@ std::vector<BoundingSphere> findTargets(const SpecularMaterials& specular, const
             targets.push_back(placed[i]);
         }
     }
-    for (const Sphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres) {
         if (specular[sphere.material]) {
             targets.push_back(computeBoundingSphere(sphere));
         }
@@ -329,7 +329,7 @@ double roomArea(const Primitives& primitives, std::span<const BoundingSphere> pl
             high = glm::max(high, glm::dvec3(v));
         }
     }
-    for (const Sphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres) {
         low = glm::min(low, glm::dvec3(sphere.center - sphere.radius));
         high = glm::max(high, glm::dvec3(sphere.center + sphere.radius));
     }
@@ -367,7 +367,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     if (!primitives.triangles.empty()) {
         all.push_back(boundingSphere(primitives.triangles));
     }
-    for (const Sphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres) {
         all.push_back(computeBoundingSphere(sphere));
     }
     const BoundingSphere whole = boundingSphere(std::span<const BoundingSphere>(all));

@@ -74,13 +74,13 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
                                                           : Coverage::Mixed;
 }
 
-Coverage AlphaClassifier::classify(const Sphere& sphere) const
+Coverage AlphaClassifier::classify(std::uint32_t id, float vertexAlpha) const
 {
-    const Material& material = scene_.materials[sphere.material];
+    const Material& material = scene_.materials[id];
     return material.unlit || passesStraight(material) ? Coverage::Mixed
            : material.alphaMode == AlphaMode::Opaque  ? Coverage::Opaque
            : material.textures[kSlotBaseColor]        ? Coverage::Mixed
-                                                      : computeCoverage(material, material.alpha);
+                                                      : computeCoverage(material, material.alpha * vertexAlpha);
 }
 
 }  // namespace glim

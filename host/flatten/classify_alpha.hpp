@@ -1,4 +1,4 @@
-// Tells whether a triangle is opaque or transparent all over.
+// Tells whether a triangle or a sphere is opaque or transparent all over.
 #pragma once
 
 #include "host/flatten/box_sums.hpp"
@@ -18,7 +18,8 @@ public:
 
     // `corners`: vertices of the mesh.
     Coverage classify(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners);
-    Coverage classify(const Sphere& sphere) const;
+    // Of a sphere whose colour has the alpha `vertexAlpha` all over.
+    Coverage classify(std::uint32_t material, float vertexAlpha = 1.0F) const;
 
 private:
     struct Shares {

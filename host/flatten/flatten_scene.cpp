@@ -63,9 +63,9 @@ struct PrimitiveRefs {
         features |= sliver ? kFeatureSlivers : 0U;
         push(triangle.vertices[0], id, triangle.vertices[1], material | (sliver ? kSliverBit : 0U), alpha, triangle.vertices[2]);
     }
-    void push(const Sphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha)
+    void push(const PlacedSphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha, const glm::vec4& color)
     {
-        push(sphere.center, id, {sphere.radius, 0.0F, 0.0F}, material | kSphereBit, alpha, glm::vec3(0.0F));
+        push(sphere.center, id, {sphere.radius, color.a, 0.0F}, material | kSphereBit, alpha, glm::vec3(color));
     }
 
 private:
@@ -78,6 +78,18 @@ private:
     }
 };
 
+bool hasColors(const Mesh& cloud) { return cloud.isCloud && !cloud.colors.empty(); }
+
+// White where the sphere has none.
+glm::vec4 colorOf(const Scene& scene, const PlacedSphere& sphere)
+{
+    if (sphere.point == kNoIndex) {
+        return glm::vec4(1.0F);
+    }
+    const Mesh& mesh = scene.meshes[scene.instances[sphere.object].mesh];
+    return mesh.colors.empty() ? glm::vec4(1.0F) : glm::clamp(mesh.colors[sphere.point], 0.0F, 1.0F);
+}
+
 void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
     const std::vector<std::uint32_t> words = materialWordsOf(scene);
@@ -86,6 +98,9 @@ void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         materials.resize(primitives.firstTriangles[i + 1], words[scene.meshes[scene.instances[i].mesh].material]);
     }
+    const bool colored =
+        std::ranges::any_of(scene.instances, [&](const MeshInstance& instance) { return hasColors(scene.meshes[instance.mesh]); });
+    refs.features |= colored ? kFeaturePointColors : 0U;
     refs.texels.reserve(bvh.order.size() * kPrimitiveRefTexels);
     for (const std::uint32_t id : bvh.order) {
         if (id >= primitives.count()) {
@@ -95,8 +110,8 @@ void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives
         if (id < materials.size()) {
             refs.push(primitives.triangles[id], id, materials[id], alpha);
         } else {
-            const Sphere& sphere = primitives.spheres[id - materials.size()];
-            refs.push(sphere, id, words[sphere.material], alpha);
+            const PlacedSphere& sphere = primitives.spheres[id - materials.size()];
+            refs.push(sphere, id, words[sphere.material], alpha, colored ? colorOf(scene, sphere) : glm::vec4(0.0F));
         }
     }
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {

@@ -95,7 +95,7 @@ void findLargeTriangles(FlatScene& flat, const Primitives& primitives)
         }
         largest = std::max(largest, scale * largestInMesh[placement.sharedMesh]);
     }
-    for (const Sphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres) {
         sizes.push_back(2.0 * static_cast<double>(sphere.radius));
     }
     flat.largest = largestOf(primitives.triangles, std::move(extents));

@@ -188,8 +188,11 @@ Copies findHidden(const Scene& scene, const Primitives& primitives)
 // a sphere with alpha. Spheres that they hide are left out. Returns how many.
 std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
 {
+    if (std::ranges::none_of(primitives.spheres, [&](const PlacedSphere& sphere) { return emits(scene.materials[sphere.material]); })) {
+        return 0;
+    }
     using Place = std::array<float, 4>;
-    const std::vector<Sphere> spheres = std::exchange(primitives.spheres, {});
+    const std::vector<PlacedSphere> spheres = std::exchange(primitives.spheres, {});
     const std::vector<bool> hasAlpha(primitives.hasAlpha);
     const std::size_t triangles = primitives.triangles.size();
     const auto placeOf = [&](std::size_t i) {

@@ -175,7 +175,7 @@ public:
         }
     }
 
-    void addSphere(const Sphere& sphere, std::size_t index)
+    void addSphere(const PlacedSphere& sphere, std::size_t index)
     {
         if (!(strongestChannel(scene_.materials[sphere.material].emission) > 0.0)) {
             return;

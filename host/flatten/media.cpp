@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/flatten/bounds.hpp"
+#include "host/scene/placed_mesh.hpp"
 
 #include <algorithm>
 
@@ -18,6 +19,10 @@ Bounds computeSolidBounds(const Scene& scene, const MeshInstance& instance)
     Bounds bounds;
     for (const glm::dvec3& position : scene.meshes[instance.mesh].positions) {
         bounds.add(glm::dvec3(instance.worldFromMesh * glm::dvec4(position, 1.0)));
+    }
+    if (scene.meshes[instance.mesh].isCloud) {
+        const glm::dvec3 radius(static_cast<double>(computePointRadius(scene, instance)));
+        bounds = {bounds.low - radius, bounds.high + radius};
     }
     return bounds;
 }

@@ -49,6 +49,9 @@ public:
     {
         for (const MeshInstance& instance : scene.instances) {
             const Mesh& mesh = scene.meshes[instance.mesh];
+            if (mesh.isCloud) {
+                continue;
+            }
             smooth_ = smooth_ || !mesh.normals.empty();
             mapped_ = mapped_ || isTextured(scene_.materials[mesh.material]);
             tangents_ = tangents_ || !mesh.tangents.empty();
@@ -72,9 +75,7 @@ public:
         made_.firstTriangles.push_back(static_cast<std::uint32_t>(made_.triangles.size()));
         shareMeshes(shared);
         placeSharedMeshes(scene_, made_);
-        for (const Sphere& sphere : scene_.spheres) {
-            addPrimitive(alpha_.classify(sphere), [&] { made_.spheres.push_back(sphere); });
-        }
+        addSpheres();
         if (std::find(made_.hasAlpha.begin(), made_.hasAlpha.end(), true) == made_.hasAlpha.end()) {
             made_.hasAlpha.clear();
         }
@@ -97,6 +98,36 @@ private:
         if (coverage != Coverage::Transparent) {
             made_.hasAlpha.push_back(coverage == Coverage::Mixed);
             add();
+        }
+    }
+
+    void addSpheres()
+    {
+        auto object = static_cast<std::uint32_t>(scene_.instances.size());
+        for (const Sphere& sphere : scene_.spheres) {
+            addPrimitive(alpha_.classify(sphere.material), [&] {
+                made_.spheres.push_back({sphere.center, sphere.radius, sphere.material, object, kNoIndex});
+            });
+            ++object;
+        }
+        for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+            if (scene_.meshes[scene_.instances[i].mesh].isCloud) {
+                addPoints(i);
+            }
+        }
+    }
+
+    void addPoints(std::uint32_t instance)
+    {
+        const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
+        const PlacedMesh placed(scene_, scene_.instances[instance]);
+        const float radius = computePointRadius(scene_, scene_.instances[instance]);
+        made_.spheres.reserve(made_.spheres.size() + mesh.positions.size());
+        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+            const float alpha = mesh.colors.empty() ? 1.0F : std::clamp(mesh.colors[i].a, 0.0F, 1.0F);
+            addPrimitive(alpha_.classify(mesh.material, alpha), [&] {
+                made_.spheres.push_back({placed.positions()[i], radius, mesh.material, instance, i});
+            });
         }
     }
 
@@ -309,8 +340,9 @@ Same compareSurfaces(const Scene& before, const Primitives& primitives, const Sc
     const auto spheres = [](const Sphere& a, const Sphere& b) { return areIdentical(a, b); };
     const auto instances = [](const MeshInstance& a, const MeshInstance& b) { return a.mesh == b.mesh; };
     if (!before.meshes.isSameAs(scene.meshes) || before.origin != scene.origin || before.showsBackFaces != scene.showsBackFaces ||
-        !std::ranges::equal(before.materials, scene.materials, areSameSurface) ||
-        !std::ranges::equal(before.spheres, scene.spheres, spheres) || !std::ranges::equal(before.instances, scene.instances, instances)) {
+        !std::ranges::equal(before.materials, scene.materials, areSameSurface) || before.pointRadius != scene.pointRadius ||
+        before.lonePointRadius != scene.lonePointRadius || !std::ranges::equal(before.spheres, scene.spheres, spheres) ||
+        !std::ranges::equal(before.instances, scene.instances, instances)) {
         return Same::Nothing;
     }
     std::vector<bool> isShared(scene.meshes.size(), false);

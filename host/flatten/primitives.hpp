@@ -24,11 +24,20 @@ struct Placement {
     glm::dvec3 translation{0.0};
 };
 
-// The triangles of all instances that share no mesh, one instance after the other, then the scene's spheres. A primitive's id counts
-// through both.
+// A sphere of the scene, or a point of a cloud.
+struct PlacedSphere {
+    glm::vec3 center{0.0F};
+    float radius = 1.0F;
+    std::uint32_t material = 0;
+    std::uint32_t object = 0;        // among the scene's instances and, behind these, its spheres
+    std::uint32_t point = kNoIndex;  // of the instance's mesh
+};
+
+// The triangles of all instances that share no mesh, one instance after the other, then the scene's spheres, then the points of clouds,
+// again one instance after the other. A primitive's id counts through all.
 struct Primitives {
     std::vector<Triangle> triangles;
-    std::vector<Sphere> spheres;
+    std::vector<PlacedSphere> spheres;
     std::vector<std::uint32_t> firstTriangles;  // by instance, then the number of all triangles
     std::vector<SharedMesh> sharedMeshes;
     std::vector<Placement> placements;

@@ -74,6 +74,8 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.sun = parseSun(value); });
     addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
             options.showsBackFaces);
+    addNumber<double>(table, {"--point-radius", "R", "Radius of the spheres that points are drawn as, in metres", 1e-9, 1e9, "by the file"},
+                      [&options](double metres) { options.pointRadius = metres; });
     table.addEach("--set", "POINTER=VALUE", "Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
     table.addEach("--add", "FILE[@x,y,z]", "Another file's shapes and lights, moved by metres or a matrix; repeatable",
@@ -208,6 +210,7 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     load.environmentBackground = options.environmentBackground;
     load.sun = options.sun;
     load.showsBackFaces = options.showsBackFaces;
+    load.pointRadius = options.pointRadius;
     load.edits = options.edits;
     load.additions = options.additions;
     load.missingTextures = options.missingTextures;

@@ -29,6 +29,7 @@ struct PictureOptions {
     bool environmentBackground = true;
     std::optional<Sun> sun;
     bool showsBackFaces = false;
+    std::optional<double> pointRadius;  // metres
     std::vector<Edit> edits;
     std::vector<Addition> additions;
     MissingTextures missingTextures = MissingTextures::Refuse;

@@ -25,21 +25,31 @@ std::string describePunctual(const Scene& scene, const FlatLight& flat)
     return kind + " light " + named(found->name);
 }
 
-PrimitiveDescription describeTriangle(const Scene& scene, const MeshInstance& instance, std::uint32_t triangle)
+PrimitiveDescription describePart(const Scene& scene, const MeshInstance& instance, std::optional<std::uint32_t> triangle,
+                                  std::optional<std::uint32_t> point)
 {
     const std::uint32_t material = scene.meshes[instance.mesh].material;
-    return {"instance " + named(instance.name), triangle, named(scene.materials[material].name), instance.node, material};
+    return {"instance " + named(instance.name), triangle, point, named(scene.materials[material].name), instance.node, material};
 }
 
 PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& primitives, std::uint32_t id)
 {
     if (id >= primitives.triangles.size()) {
-        const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
-        return {"sphere " + named(sphere.name), std::nullopt, named(scene.materials[sphere.material].name), sphere.node, sphere.material};
+        const PlacedSphere& placed = primitives.spheres[id - primitives.triangles.size()];
+        if (placed.point != kNoIndex) {
+            return describePart(scene, scene.instances[placed.object], std::nullopt, placed.point);
+        }
+        const Sphere& sphere = scene.spheres[placed.object - scene.instances.size()];
+        return {"sphere " + named(sphere.name),
+                std::nullopt,
+                std::nullopt,
+                named(scene.materials[sphere.material].name),
+                sphere.node,
+                sphere.material};
     }
     const std::uint32_t index = primitives.findInstance(id);
     const MeshInstance& instance = scene.instances[index];
-    return describeTriangle(scene, instance, id - primitives.firstTriangles[index]);
+    return describePart(scene, instance, id - primitives.firstTriangles[index], std::nullopt);
 }
 
 PrimitiveDescription describeInstancedPrimitive(const PreparedScene& prepared, std::uint32_t ref)
@@ -49,14 +59,16 @@ PrimitiveDescription describeInstancedPrimitive(const PreparedScene& prepared, s
     const std::uint32_t shared = prepared.flat.primitiveRefs[std::size_t{ref - instance[1].w} * kPrimitiveRefTexels].w;
     const Placement& placement = prepared.primitives.placements[index];
     const MeshInstance& placed = prepared.scene.instances[placement.instance];
-    return describeTriangle(prepared.scene, placed, shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId);
+    return describePart(prepared.scene, placed, shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId, std::nullopt);
 }
 
 }  // namespace
 
 std::string toText(const PrimitiveDescription& primitive)
 {
-    return primitive.object + (primitive.triangle ? ", triangle " + std::to_string(*primitive.triangle) : "");
+    return primitive.object + (primitive.triangle ? ", triangle " + std::to_string(*primitive.triangle)
+                               : primitive.point  ? ", point " + std::to_string(*primitive.point)
+                                                  : "");
 }
 
 bool isInstanced(const FlatScene& flat, std::uint32_t ref) { return ref >= flat.firstInstanceRef && !flat.instances.empty(); }

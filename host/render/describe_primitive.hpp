@@ -11,6 +11,7 @@ namespace glim {
 struct PrimitiveDescription {
     std::string object;                     // as in: instance "floor", or: sphere without a name
     std::optional<std::uint32_t> triangle;  // of its mesh; those of zero area do not count
+    std::optional<std::uint32_t> point;     // of its cloud
     std::string material;
     std::uint32_t node, materialIndex;  // of the scene
 };

@@ -70,7 +70,7 @@ Identifier::Identifier(const Renderer& renderer, const PreparedScene& prepared, 
         const Mesh& mesh = prepared.scene.meshes[instance.mesh];
         addObject({instance.node, mesh.fileMesh, mesh.material});
     }
-    for (const Sphere& sphere : prepared.primitives.spheres) {
+    for (const Sphere& sphere : prepared.scene.spheres) {
         addObject({sphere.node, kNoIndex, sphere.material});
     }
 }
@@ -124,7 +124,7 @@ std::uint32_t Identifier::objectOf(const PathHit& hit) const
     if (id < primitives.triangles.size()) {
         return primitives.findInstance(id);
     }
-    return static_cast<std::uint32_t>(prepared_.scene.instances.size() + id - primitives.triangles.size());
+    return primitives.spheres[id - primitives.triangles.size()].object;
 }
 
 // The objects that the samples of each pixel show, run by run. The first pixel has the most samples.

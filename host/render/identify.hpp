@@ -57,7 +57,7 @@ private:
 
     const PreparedScene& prepared_;
     CameraRays rays_;
-    std::vector<Identity> objects_;  // the scene's instances, then the primitives' spheres
+    std::vector<Identity> objects_;  // the scene's instances, then its spheres
     std::array<std::map<std::string, std::uint32_t>, kKinds> manifests_;
 };
 

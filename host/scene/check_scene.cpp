@@ -1,6 +1,7 @@
 #include "host/scene/check_scene.hpp"
 
 #include "host/error.hpp"
+#include "host/scene/placed_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,8 @@ void SceneCheck::checkMeshes() const
                 "a position", "that is not finite");
         require(isOneEach(mesh.normals) && isOneEach(mesh.tangents) && isOneEach(mesh.uv0) && isOneEach(mesh.uv1) && isOneEach(mesh.colors),
                 MessageId::Mismatch, "mesh", i, "an attribute", "for some positions only");
+        require(!mesh.isCloud || (mesh.indices.empty() && std::isfinite(mesh.pointRadius) && mesh.pointRadius >= 0.0), MessageId::Mismatch,
+                "mesh", i, "points", "with triangles, or of a radius that is negative or not finite");
         require(mesh.indices.size() % 3 == 0, MessageId::Mismatch, "mesh", i, "a triangle", "with fewer than three vertices");
         require(std::ranges::all_of(mesh.indices, [count](std::uint32_t index) { return index < count; }), MessageId::DanglingIndex, "mesh",
                 i, "a triangle", "with a vertex that does not exist");
@@ -82,6 +85,8 @@ void SceneCheck::checkInstances() const
                 "that is not finite");
         require(m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0 && glm::determinant(glm::dmat3(m)) != 0.0,
                 MessageId::Degenerate, "instance", i, "a transform", "that is not affine or cannot be inverted");
+        require(!scene_.meshes[instance.mesh].isCloud || std::isfinite(computePointRadius(scene_, instance)), MessageId::OutOfRange,
+                "instance", i, "points", "of a radius that does not fit a float");
     }
 }
 

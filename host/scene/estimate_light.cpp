@@ -22,8 +22,8 @@ constexpr double kShownRadiance = 0.02;
 constexpr double kGreyAlbedo = 0.5;
 // What has this roughness, or this albedo of a diffuse lobe, shows a lamp over all of its surface.
 constexpr double kRough = 0.5, kDiffuse = 0.25;
-// Of larger scenes every other triangle or light is taken, or every third, and so on.
-constexpr std::size_t kMaxTriangles = 2'000'000, kMaxLights = 4096;
+// Of larger scenes every other triangle, point or light is taken, or every third, and so on.
+constexpr std::size_t kMaxShapes = 2'000'000, kMaxLights = 4096;
 constexpr std::size_t kLampPoints = 256;  // for all surfaces that emit
 
 std::size_t strideFor(std::size_t count, std::size_t most) { return std::max<std::size_t>(1, (count + most - 1) / most); }
@@ -74,10 +74,8 @@ public:
             material);
     }
 
-    void add(const Sphere& sphere)
+    void addSphere(const glm::dvec3& center, double radius, std::uint32_t material)
     {
-        const glm::dvec3 center(sphere.center);
-        const auto radius = static_cast<double>(sphere.radius);
         std::array<glm::dvec3, 8> corners{};
         for (unsigned i = 0; i < corners.size(); ++i) {
             corners[i] = center + radius * glm::dvec3(i & 1U ? 1.0 : -1.0, i & 2U ? 1.0 : -1.0, i & 4U ? 1.0 : -1.0);
@@ -90,7 +88,7 @@ public:
                 const double square = half * half - a * (glm::dot(from, from) - radius * radius);
                 return square >= 0.0 ? std::optional((-half - std::sqrt(square)) / a) : std::nullopt;
             },
-            sphere.material);
+            material);
     }
 
     const std::vector<SeenPoint>& seen() const { return seen_; }
@@ -201,10 +199,22 @@ std::vector<LampPoint> listLamps(const Scene& scene)
         radiances.push_back(lampRadiance(scene, material));
     }
     std::vector<LampPoint> all;
+    const auto addSphere = [&all](const glm::dvec3& center, double radius, double radiance) {
+        const double area = std::numbers::pi * radius * radius;
+        if (radiance > 0.0 && area > 0.0) {
+            all.push_back({center, glm::dvec3(0.0), radiance * area, area, true});
+        }
+    };
     for (const MeshInstance& instance : scene.instances) {
         const std::uint32_t material = scene.meshes[instance.mesh].material;
         if (radiances[material] > 0.0) {
             const PlacedMesh placed(scene, instance);
+            if (scene.meshes[instance.mesh].isCloud) {
+                const double radius = static_cast<double>(computePointRadius(scene, instance));
+                for (const glm::vec3& center : placed.positions()) {
+                    addSphere(glm::dvec3(center), radius, radiances[material]);
+                }
+            }
             for (std::size_t i = 0; i < placed.triangleCount(); ++i) {
                 const Triangle triangle = placed.triangle(i);
                 const glm::dvec3 normal = faceNormal(triangle);
@@ -219,10 +229,7 @@ std::vector<LampPoint> listLamps(const Scene& scene)
         }
     }
     for (const Sphere& sphere : scene.spheres) {
-        const double area = std::numbers::pi * static_cast<double>(sphere.radius) * static_cast<double>(sphere.radius);
-        if (radiances[sphere.material] > 0.0 && area > 0.0) {
-            all.push_back({glm::dvec3(sphere.center), glm::dvec3(0.0), radiances[sphere.material] * area, area, true});
-        }
+        addSphere(glm::dvec3(sphere.center), static_cast<double>(sphere.radius), radiances[sphere.material]);
     }
     return all;
 }
@@ -278,27 +285,36 @@ double irradianceOf(const PunctualLight& light, const glm::dvec3& position)
 
 DepthPicture drawDepths(const Scene& scene, const Camera& camera)
 {
+    const auto countShapes = [&scene](const MeshInstance& instance) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        return mesh.isCloud ? mesh.positions.size() : mesh.indices.size() / 3;
+    };
     std::size_t count = 0;
     for (const MeshInstance& instance : scene.instances) {
-        count += scene.meshes[instance.mesh].indices.size() / 3;
+        count += countShapes(instance);
     }
-    const std::size_t stride = strideFor(count, kMaxTriangles);
+    const std::size_t stride = strideFor(count, kMaxShapes);
     DepthPicture picture(camera);
-    std::size_t next = 0;  // of the instance's triangles
+    std::size_t next = 0;  // of the instance's triangles or points
     for (const MeshInstance& instance : scene.instances) {
-        const std::uint32_t material = scene.meshes[instance.mesh].material;
-        const bool meetsBack = scene.showsBackFaces || meetsBackFaces(scene.materials[material]);
-        const std::size_t triangles = scene.meshes[instance.mesh].indices.size() / 3;
-        if (next < triangles) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        const bool meetsBack = scene.showsBackFaces || meetsBackFaces(scene.materials[mesh.material]);
+        const std::size_t shapes = countShapes(instance);
+        if (next < shapes) {
             const PlacedMesh placed(scene, instance);
-            for (; next < triangles; next += stride) {
-                picture.add(placed.triangle(next), material, meetsBack);
+            const double radius = mesh.isCloud ? static_cast<double>(computePointRadius(scene, instance)) : 0.0;
+            for (; next < shapes; next += stride) {
+                if (mesh.isCloud) {
+                    picture.addSphere(glm::dvec3(placed.positions()[next]), radius, mesh.material);
+                } else {
+                    picture.add(placed.triangle(next), mesh.material, meetsBack);
+                }
             }
         }
-        next -= triangles;
+        next -= shapes;
     }
     for (const Sphere& sphere : scene.spheres) {
-        picture.add(sphere);
+        picture.addSphere(glm::dvec3(sphere.center), static_cast<double>(sphere.radius), sphere.material);
     }
     return picture;
 }

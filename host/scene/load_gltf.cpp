@@ -30,8 +30,9 @@ constexpr double kMaxFloat = std::numeric_limits<float>::max();
 void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
 {
     for (const std::string& extension : file.model.extensionsUsed) {
-        const bool isOfMaterials = extension.find("_materials_") != std::string::npos;  // noted with each material
-        if (isMissing(extension) && !isOfMaterials) {
+        // Noted with each material or primitive.
+        const bool isNoted = extension.find("_materials_") != std::string::npos || extension == "KHR_gaussian_splatting";
+        if (isMissing(extension) && !isNoted) {
             warnings.add(MessageId::ExtensionIgnored, "extensions are ignored", shortened(extension));
         }
     }
@@ -332,6 +333,7 @@ Framed FilePart::frameRestPose()
     restoreRestPose(file_);
     posed_ = false;
     Scene rest;
+    rest.pointRadius = options_.pointRadius;
     rest.materials.resize(file_.model.materials.size() + 1);
     ReadMeshes unused;
     Warnings unheard;
@@ -362,6 +364,7 @@ Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
     scene.skins = file_.skins.size();
     scene.morphTargets = countAllMorphTargets(file_);
     scene.showsBackFaces = options_.showsBackFaces;
+    scene.pointRadius = options_.pointRadius;
     scene.materials.resize(file_.model.materials.size() + 1);
     warnings.add(file_.warnings);
     warnings.add(file_.editWarnings);

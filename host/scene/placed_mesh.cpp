@@ -1,6 +1,7 @@
 #include "host/scene/placed_mesh.hpp"
 
 #include "host/scene/share_meshes.hpp"
+#include "host/scene/uniform_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,17 @@ Triangle PlacedMesh::triangle(std::size_t triangle) const
     return {{positions_[a], positions_[b], positions_[c]}};
 }
 
+float computePointRadius(const Scene& scene, const MeshInstance& instance)
+{
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (scene.pointRadius || mesh.pointRadius == 0.0) {
+        return static_cast<float>(scene.pointRadius.value_or(scene.lonePointRadius));
+    }
+    const glm::dmat3 linear(instance.worldFromMesh);
+    const double even = computeUniformScale(linear);
+    return static_cast<float>(mesh.pointRadius * (even > 0.0 ? even : std::cbrt(std::abs(glm::determinant(linear)))));
+}
+
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -51,6 +63,11 @@ constexpr WorldBox kEmptyWorldBox{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
 WorldBox computeMeshBox(const Mesh& mesh)
 {
     WorldBox box = kEmptyWorldBox;
+    if (mesh.isCloud) {
+        for (const glm::dvec3& position : mesh.positions) {
+            box = {glm::min(box.low, glm::vec3(position)), glm::max(box.high, glm::vec3(position))};
+        }
+    }
     for (const std::uint32_t index : mesh.indices) {
         box = {glm::min(box.low, glm::vec3(mesh.positions[index])), glm::max(box.high, glm::vec3(mesh.positions[index]))};
     }
@@ -63,7 +80,8 @@ WorldBox placeBox(const Scene& scene, const MeshInstance& instance, const WorldB
     const glm::dmat3 linear(instance.worldFromMesh);
     const glm::dvec3 center = 0.5 * (glm::dvec3(box.low) + glm::dvec3(box.high)), half = glm::dvec3(box.high) - center;
     const glm::dvec3 placed = linear * center + glm::dvec3(instance.worldFromMesh[3]) - scene.origin;
-    const glm::dvec3 extent = glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y + glm::abs(linear[2]) * half.z;
+    glm::dvec3 extent = glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y + glm::abs(linear[2]) * half.z;
+    extent += scene.meshes[instance.mesh].isCloud ? static_cast<double>(computePointRadius(scene, instance)) : 0.0;
     return {glm::vec3(placed - extent), glm::vec3(placed + extent)};
 }
 
@@ -75,7 +93,7 @@ WorldBox boxOf(const Sphere& sphere) { return {sphere.center - sphere.radius, sp
 
 float longestSide(const glm::vec3& extent) { return std::max({extent.x, extent.y, extent.z}); }
 
-// An instance that has triangles, and a box around it that may be larger than it where it is turned.
+// An instance that has triangles or points, and a box around it that may be larger than it where it is turned.
 struct PlacedBox {
     const MeshInstance* instance;
     WorldBox box;
@@ -92,7 +110,7 @@ std::vector<PlacedBox> placeOwnBoxes(const Scene& scene)
     }
     std::vector<PlacedBox> boxes;
     for (const MeshInstance& instance : std::span(scene.instances).first(scene.instances.size() - scene.addedInstances)) {
-        if (!scene.meshes[instance.mesh].indices.empty()) {
+        if (const Mesh& mesh = scene.meshes[instance.mesh]; mesh.isCloud || !mesh.indices.empty()) {
             boxes.push_back({&instance, placeBox(scene, instance, meshes[instance.mesh])});
         }
     }
@@ -133,10 +151,26 @@ void visitVertices(const Scene& scene, Take take)
     }
 }
 
-WorldBox computeTriangleBox(const Scene& scene)
+// Calls `take` with the centre and the radius of each of a subject's points.
+template <class Take>
+void visitPoints(const Scene& scene, Take take)
+{
+    for (const PlacedBox& subject : listSubjects(scene)) {
+        if (scene.meshes[subject.instance->mesh].isCloud) {
+            const float radius = computePointRadius(scene, *subject.instance);
+            const PlacedMesh placed(scene, *subject.instance);
+            for (const glm::vec3& center : placed.positions()) {
+                take(center, radius);
+            }
+        }
+    }
+}
+
+WorldBox computeShapeBox(const Scene& scene)
 {
     WorldBox box = kEmptyWorldBox;
     visitVertices(scene, [&box](const glm::vec3& vertex) { box = {glm::min(box.low, vertex), glm::max(box.high, vertex)}; });
+    visitPoints(scene, [&box](const glm::vec3& center, float radius) { box = unite(box, {center - radius, center + radius}); });
     return box;
 }
 
@@ -156,7 +190,7 @@ WorldBox computeBoxOfMeshBoxes(const Scene& scene)
 
 WorldBox computeWorldBox(const Scene& scene)
 {
-    WorldBox box = isLarge(scene) ? computeBoxOfMeshBoxes(scene) : computeTriangleBox(scene);
+    WorldBox box = isLarge(scene) ? computeBoxOfMeshBoxes(scene) : computeShapeBox(scene);
     for (const Sphere& sphere : ownSpheres(scene)) {
         box = unite(box, boxOf(sphere));
     }
@@ -173,6 +207,7 @@ double computeRadius(const Scene& scene, const glm::dvec3& center)
     double radius = 0.0;
     const auto distance = [&center](const glm::dvec3& point) { return std::hypot(point.x - center.x, point.z - center.z); };
     visitVertices(scene, [&](const glm::vec3& vertex) { radius = std::max(radius, distance(vertex)); });
+    visitPoints(scene, [&](const glm::vec3& point, float own) { radius = std::max(radius, distance(point) + static_cast<double>(own)); });
     for (const Sphere& sphere : ownSpheres(scene)) {
         radius = std::max(radius, distance(sphere.center) + static_cast<double>(sphere.radius));
     }

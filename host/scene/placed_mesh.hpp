@@ -26,12 +26,16 @@ public:
     // Indices of the mesh's vertices. If the instance mirrors, two are swapped, so that the front stays the front.
     std::array<std::uint32_t, 3> corners(std::size_t triangle) const;
     Triangle triangle(std::size_t triangle) const;
+    const std::vector<glm::vec3>& positions() const { return positions_; }
 
 private:
     const Mesh* mesh_;
     std::size_t second_;                // which of a triangle's indices comes second
     std::vector<glm::vec3> positions_;  // by vertex
 };
+
+// Of the spheres that stand for the points of a cloud. An uneven scale counts as the even one that keeps volumes.
+float computePointRadius(const Scene& scene, const MeshInstance& instance);
 
 // The bounds of everything that has a surface, was not added to the scene and is no ground: flat and several times as long as all that is
 // not flat. 2 m of each axis where nothing is.

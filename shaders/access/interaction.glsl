@@ -18,7 +18,7 @@ struct SurfaceInteraction {
     uint material;
     uint primitive;
     uint light;        // index + 1, or 0
-    uint triangle;     // as in PlacedPrimitive
+    uint triangle;     // as in PlacedPrimitive; with kFeaturePointColors of a sphere its reference
     uint instance;     // that places the triangle, or kNoInstance
 };
 
@@ -90,14 +90,14 @@ vec3 vertexNormal(uint triangle, uint instance, vec2 barycentric)
     return vertexDirection(0u, true, triangle, instance, barycentric).xyz;
 }
 
-SurfaceInteraction interactionWithSphere(PrimitiveRef ref, vec3 near)
+SurfaceInteraction interactionWithSphere(PrimitiveRef ref, uint index, vec3 near)
 {
     vec3 center = toFloats(ref.t0);
     float radius = uintBitsToFloat(ref.t1.x);
     vec3 n = near - center;
     n = n / length(n);
     return SurfaceInteraction(center + radius * n, sphereErrorBound(center, radius), n, n, vec2(0.0), true, getMaterial(ref),
-                              getPrimitive(ref), ref.t2.w, 0u, kNoInstance);
+                              getPrimitive(ref), ref.t2.w, hasFeature(kFeaturePointColors) ? index : 0u, kNoInstance);
 }
 
 SurfaceInteraction interactionWithTriangle(PlacedPrimitive placed, PathRay ray, PathHit hit)
@@ -132,7 +132,7 @@ SurfaceInteraction makeSurfaceInteraction(PathRay ray, PathHit hit)
     PlacedPrimitive placed = fetchPlacedPrimitive(hit.primitiveRef);
     SurfaceInteraction si;
     if (isSphere(placed.ref)) {
-        si = interactionWithSphere(placed.ref, ray.origin + ray.direction * hit.t);
+        si = interactionWithSphere(placed.ref, hit.primitiveRef, ray.origin + ray.direction * hit.t);
     } else {
         si = interactionWithTriangle(placed, ray, hit);
     }

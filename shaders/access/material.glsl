@@ -10,18 +10,10 @@
 
 #define isOnSphere(si) (hasFeature(kFeatureSpheres) && (si).primitive >= render.triangleCount && (si).instance == kNoInstance)
 
-// A section of the vertices, interpolated; of a sphere that of vertex 0.
-vec4 vertexAttribute(uint first, SurfaceInteraction si)
-{
-    bool sphere = isOnSphere(si);
-    return vertexAttribute(first, sphere ? 0u : si.triangle, sphere ? vec2(0.0) : si.barycentric);
-}
-
-// The mesh's tangent, and the sign of the bitangent.
+// The mesh's tangent, and the sign of the bitangent; 0 on a sphere.
 vec4 vertexTangent(SurfaceInteraction si)
 {
-    bool sphere = isOnSphere(si);
-    return vertexDirection(render.firstTangent, false, sphere ? 0u : si.triangle, si.instance, sphere ? vec2(0.0) : si.barycentric);
+    return isOnSphere(si) ? vec4(0.0) : vertexDirection(render.firstTangent, false, si.triangle, si.instance, si.barycentric);
 }
 
 // Texture coordinates of set 0 and set 1. Spheres are mapped by longitude and latitude, as an environment is.
@@ -30,7 +22,7 @@ vec4 textureCoordinates(SurfaceInteraction si)
     if (isOnSphere(si)) {
         return latLongFromDirection(si.front ? si.ng : -si.ng).xyxy;
     }
-    return vertexAttribute(render.firstUv, si);
+    return vertexAttribute(render.firstUv, si.triangle, si.barycentric);
 }
 
 // The same at a point of a reference that is not yet an interaction.
@@ -51,7 +43,7 @@ vec3 mappedNormal(SurfaceInteraction si, vec3 texel, float scale)
 {
     float side = si.front ? 1.0 : -1.0;
     vec4 tangent = vertexTangent(si);
-    vec3 n = hasFeature(kFeatureSmooth) ? vertexNormal(si.triangle, si.instance, si.barycentric) : vec3(0.0);
+    vec3 n = hasFeature(kFeatureSmooth) && !isOnSphere(si) ? vertexNormal(si.triangle, si.instance, si.barycentric) : vec3(0.0);
     n = dot(n, n) > 0.0 ? n : side * si.ng;
     vec3 bitangent = cross(n, tangent.xyz) * (tangent.w < 0.0 ? -1.0 : 1.0);
     vec3 local = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
@@ -75,11 +67,27 @@ float computeCoverage(MaterialData material, float alpha)
     return material.alphaCutoff == kOpaque ? 1.0 : material.alphaCutoff >= 0.0 ? masked : alpha;
 }
 
-// Colour 0 of a reference's vertices; white if it has none.
+vec4 vertexColor(uint triangle, vec2 barycentric)
+{
+    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u;
+    return colored ? vertexAttribute(render.firstColor, triangle, barycentric) : vec4(1.0);
+}
+
+// Colour 0 of a reference's vertices, or of the point that a sphere stands for; white if it has none.
 vec4 vertexColor(PlacedPrimitive placed, vec2 barycentric)
 {
-    bool colored = hasFeature(kFeatureVertexColors) && render.firstColor != 0u && !isSphere(placed.ref);
-    return colored ? vertexAttribute(render.firstColor, placed.triangle, barycentric) : vec4(1.0);
+    if (isSphere(placed.ref)) {
+        return hasFeature(kFeaturePointColors) ? sphereColor(placed.ref) : vec4(1.0);
+    }
+    return vertexColor(placed.triangle, barycentric);
+}
+
+vec4 vertexColor(SurfaceInteraction si)
+{
+    if (isOnSphere(si)) {
+        return hasFeature(kFeaturePointColors) ? sphereColor(fetchPrimitiveRef(si.triangle)) : vec4(1.0);
+    }
+    return vertexColor(si.triangle, si.barycentric);
 }
 
 // Coverage at a point of a reference with alpha.
@@ -230,8 +238,8 @@ SurfaceMaterial makeSurfaceMaterial(inout SurfaceInteraction si)
             material.layers = fetchLayers(material.principled.layers);
             material.filmThickness = material.layers.iridescenceThicknessMaximum;
         }
-        if (hasFeature(kFeatureVertexColors) && render.firstColor != 0u) {
-            material.data.baseColor *= vertexAttribute(render.firstColor, si).rgb;
+        if (hasFeature(kFeatureVertexColors | kFeaturePointColors)) {
+            material.data.baseColor *= vertexColor(si).rgb;
         }
         if (hasFeature(kFeatureTextures)) {
             SampledNormals normals = applyTextures(textureCoordinates(si), material);

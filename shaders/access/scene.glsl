@@ -161,6 +161,12 @@ uint getPrimitive(PrimitiveRef ref)
 
 #define isSphere(ref) (hasFeature(kFeatureSpheres) && ((ref).t1.w & kSphereBit) != 0u)
 
+// That multiplies the base colour. Only with kFeaturePointColors.
+vec4 sphereColor(PrimitiveRef ref)
+{
+    return vec4(toFloats(ref.t2), uintBitsToFloat(ref.t1.y));
+}
+
 bool isSliver(PrimitiveRef ref)
 {
     return hasFeature(kFeatureSlivers) && (ref.t1.w & kSliverBit) != 0u;

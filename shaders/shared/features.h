@@ -43,7 +43,8 @@ GLIM_SHARED_BEGIN
     FEATURE(Instances, 31, "instances") /* that share meshes */ \
     FEATURE(LightsInMedia, 32, "lights in volumes") /* with Media */ \
     FEATURE(SingleSided, 33, "single-sided surfaces") /* not there for rays from behind */ \
-    FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */
+    FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */ \
+    FEATURE(PointColors, 35, "coloured points") /* spheres with colours of their own */
 // clang-format on
 
 #ifdef __cplusplus

@@ -22,7 +22,8 @@ GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many references at mos
 
 // Primitive references are in the order of the leaves, three texels each. A primitive may have several, all alike:
 //   triangle: (v0.xyz, primitive id) (v1.xyz, material | bits) (v2.xyz, light + 1 or 0)
-//   sphere:   (centre.xyz, primitive id) (radius, 0, 0, material | bits) (0, 0, 0, light + 1 or 0)
+//   sphere:   (centre.xyz, primitive id) (radius, alpha, 0, material | bits) (colour.rgb, light + 1 or 0)
+// Without kFeaturePointColors colour and alpha of spheres are 0 and mean nothing.
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //

@@ -371,5 +371,29 @@ TEST(IdentifyTest, SharedMeshesAreIdentifiedAsFlattenedOnes)
     EXPECT_GE(nodes.size(), 12U);
 }
 
+TEST(IdentifyTest, PointsAreTheNodeOfTheirCloud)
+{
+    SceneBuilder builder = cards();
+    const auto grey = builder.lambert(glm::vec3(0.5F)), red = builder.lambert(glm::vec3(0.5F));
+    builder.sphere({-0.5F, 0.5F, 0.0F}, 0.49F, grey);
+    Scene scene = builder.scene();
+    Mesh cloud;
+    cloud.isCloud = true;
+    cloud.positions = {{0.5, 0.5, 0.0}, {0.5, -0.5, 0.0}};
+    cloud.pointRadius = 0.49;
+    cloud.material = red;
+    scene.meshes.change().push_back(cloud);
+    scene.instances.push_back({"cloud", 0});
+    scene.spheres[0].name = "ball";
+    const auto [film, ids] = identify(prepare(scene), squareSettings(4, 16));
+    const auto nodesAt = [&ids = ids](std::size_t x, std::size_t y) { return mattesOf(ids, "CryptoObject", 4 * y + x); };
+    EXPECT_EQ(ids.counts.at("node.X"),
+              (std::vector<std::uint32_t>{1, 1, 0, 0, 1, 1, 0, 0, kNoIndex, kNoIndex, 0, 0, kNoIndex, kNoIndex, 0, 0}));
+    EXPECT_EQ(ids.counts.at("material.X")[2], red);
+    EXPECT_EQ(ids.counts.at("mesh.X")[2], 0U);
+    EXPECT_TRUE(nodesAt(2, 3).contains(matteId("cloud")));
+    EXPECT_TRUE(nodesAt(1, 1).contains(matteId("ball")));
+}
+
 }  // namespace
 }  // namespace glim

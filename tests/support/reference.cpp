@@ -26,7 +26,7 @@ ReferenceHit Reference::meetTriangle(const ReferenceRay& ray, std::uint32_t id, 
 
 ReferenceHit Reference::meetSphere(const ReferenceRay& ray, std::uint32_t id, double margin) const
 {
-    const Sphere& sphere = primitives_.spheres[id - primitives_.triangles.size()];
+    const PlacedSphere& sphere = primitives_.spheres[id - primitives_.triangles.size()];
     const glm::dvec3 center(sphere.center);
     const double radius = static_cast<double>(sphere.radius) * (1.0 + margin);
     const double closest = glm::dot(center - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);

@@ -192,7 +192,9 @@ Primitives makeTestPrimitives(const Triangles& triangles, const std::vector<Sphe
 {
     Primitives primitives;
     primitives.triangles = triangles;
-    primitives.spheres = spheres;
+    for (const Sphere& sphere : spheres) {
+        primitives.spheres.push_back({sphere.center, sphere.radius, sphere.material});
+    }
     primitives.firstTriangles = {0, static_cast<std::uint32_t>(triangles.size())};
     return primitives;
 }

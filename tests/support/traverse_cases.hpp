@@ -60,7 +60,7 @@ public:
             const Triangle& t = primitives.triangles[id];
             c.ray.origin = 0.5F * t.vertices[0] + 0.2F * t.vertices[1] + 0.3F * t.vertices[2];
         } else {
-            const Sphere& sphere = primitives.spheres[id - primitives.triangles.size()];
+            const PlacedSphere& sphere = primitives.spheres[id - primitives.triangles.size()];
             c.ray.origin = sphere.center + sphere.radius * glm::normalize(point(1.0F));
         }
         pickShadow(c);

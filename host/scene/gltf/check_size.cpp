@@ -9,8 +9,9 @@
 namespace glim {
 namespace {
 
-// What they take at least while the tree is built, measured with flat triangles without any attribute (tests/bench/README.md).
-constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400;
+// What they take at least while the tree is built, measured with flat triangles and points without any attribute (tests/bench/README.md).
+// A light is a point that emits.
+constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400, kBytesPerPoint = 200, kBytesPerLight = 200;
 
 // Elements of accessors without a bufferView cost a file nothing, and any number of primitives may use the same ones. So many are never too
 // many; beyond, files that leave out zeros, as of morph targets, have vertices that are there. An instance counts as many vertices.
@@ -25,20 +26,21 @@ bool mayEmit(const GltfFile& file, const tinygltf::Primitive& primitive)
     return std::any_of(factor.begin(), factor.end(), [](double channel) { return channel > 0.0; });
 }
 
-// Its triangles and vertices, if it is drawn.
+// Its triangles or points and its vertices, if it is drawn.
 struct PrimitiveSize {
-    std::uint64_t triangles = 0, vertices = 0;
+    std::uint64_t triangles = 0, points = 0, vertices = 0;
 };
 
 PrimitiveSize sizeOf(const GltfFile& file, const tinygltf::Primitive& primitive)
 {
     const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end() || primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+    const bool isCloud = primitive.mode == TINYGLTF_MODE_POINTS;
+    if (position == primitive.attributes.end() || (primitive.mode < TINYGLTF_MODE_TRIANGLES && !isCloud)) {
         return {};
     }
     const std::uint64_t vertices = file.model.accessors[static_cast<std::size_t>(position->second)].count;
     const std::uint64_t order = primitive.indices >= 0 ? file.model.accessors[static_cast<std::size_t>(primitive.indices)].count : vertices;
-    return {primitive.mode == TINYGLTF_MODE_TRIANGLES ? order / 3 : order, vertices};
+    return {isCloud ? 0 : primitive.mode == TINYGLTF_MODE_TRIANGLES ? order / 3 : order, isCloud ? order : 0, vertices};
 }
 
 std::uint64_t countUnbacked(const GltfFile& file, int accessor)
@@ -92,12 +94,14 @@ void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
     }
     checkUnbacked(file, instancesOf, unbackedInstances);
     std::vector<MeshUse> uses;  // by primitive
-    std::uint64_t vertices = 0, instances = 0;
+    std::uint64_t vertices = 0, points = 0, lights = 0, instances = 0;
     for (std::size_t mesh = 0; mesh < instancesOf.size(); ++mesh) {
         for (const tinygltf::Primitive& primitive : file.model.meshes[mesh].primitives) {
             const PrimitiveSize size = sizeOf(file, primitive);
             uses.push_back({instancesOf[mesh], size.triangles, mayEmit(file, primitive)});
             vertices += instancesOf[mesh] > 0 ? size.vertices : 0;
+            points += instancesOf[mesh] * size.points;
+            lights += mayEmit(file, primitive) ? instancesOf[mesh] * size.points : 0;
             instances += instancesOf[mesh];
         }
     }
@@ -106,12 +110,14 @@ void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
     for (std::size_t i = 0; i < uses.size(); ++i) {
         stored += shared[i] ? uses[i].triangles : uses[i].instances * uses[i].triangles;
     }
-    const std::uint64_t needed = stored * kBytesPerTriangle + vertices * kBytesPerVertex + instances * kBytesPerInstance;
+    const std::uint64_t needed = stored * kBytesPerTriangle + points * kBytesPerPoint + lights * kBytesPerLight +
+                                 vertices * kBytesPerVertex + instances * kBytesPerInstance;
     if (const std::uint64_t available = availableBytes(); needed > available) {
         refuse(file, MessageId::OutOfMemory,
-               {"the scene has ", counted(countTriangles(uses), "triangle"), " in ", counted(instances, "instance"), "; ",
-                std::to_string(stored), " of them have to be stored, which takes at least ", part::value(std::to_string(needed >> 20U)),
-                " MiB; expected ", part::expected("at most the " + std::to_string(available >> 20U) + " MiB that the process may take")});
+               {"the scene has ", counted(countTriangles(uses), "triangle"), " and ", counted(points, "point"), " in ",
+                counted(instances, "instance"), "; ", std::to_string(stored + points), " of them have to be stored, which takes at least ",
+                part::value(std::to_string(needed >> 20U)), " MiB; expected ",
+                part::expected("at most the " + std::to_string(available >> 20U) + " MiB that the process may take")});
     }
 }
 

@@ -19,6 +19,7 @@ constexpr Extension kExtensions[] = {
     {"EXT_texture_webp", ExtensionEffect::Drawn},
     {"KHR_animation_pointer", ExtensionEffect::Drawn},
     {"KHR_draco_mesh_compression", ExtensionEffect::Drawn},
+    {"KHR_gaussian_splatting", ExtensionEffect::Looks},  // drawn as points
     {"KHR_lights_punctual", ExtensionEffect::Drawn},
     {"KHR_materials_anisotropy", ExtensionEffect::Drawn},
     {"KHR_materials_clearcoat", ExtensionEffect::Drawn},

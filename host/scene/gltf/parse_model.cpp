@@ -76,6 +76,11 @@ tinygltf::Model parseModel(const std::string& path, json document)
     const std::vector<std::size_t> strides = takeStrides(document), borrowers = lendBufferView(document);
     widenMembers(document, "materials", "extensions");
     widenMembers(document, "nodes", "extras");
+    if (document.contains("meshes")) {
+        for (json& mesh : document["meshes"]) {
+            widenMembers(mesh, "primitives", "extras");
+        }
+    }
     const std::string text = document.dump();
     tinygltf::TinyGLTF parser;
     tinygltf::Model model;

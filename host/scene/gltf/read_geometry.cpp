@@ -4,6 +4,7 @@
 #include "host/scene/gltf/read_material.hpp"
 #include "host/scene/make_tangents.hpp"
 #include "host/scene/placed_mesh.hpp"
+#include "host/scene/point_spacing.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/scene/uniform_scale.hpp"
 #include "host/text.hpp"
@@ -22,7 +23,7 @@ namespace {
 // itself needs all 53 bits.
 constexpr int kOriginBits = 8;
 
-// So many triangles are looked at, and at least one of each instance, to place the origin.
+// So many triangles, or points, are looked at, and at least one of each instance, to place the origin.
 constexpr std::size_t kMaxPlaces = std::size_t{1} << 16U;
 
 struct WorldSphere {
@@ -92,17 +93,13 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
     return world;
 }
 
-// "points", "lines", both or neither: what the file's meshes are made of besides triangles.
-std::string listPointsAndLines(const GltfFile& file)
+bool hasLines(const GltfFile& file)
 {
-    bool points = false, lines = false;
-    for (const tinygltf::Mesh& mesh : file.model.meshes) {
-        for (const tinygltf::Primitive& primitive : mesh.primitives) {
-            points = points || primitive.mode == TINYGLTF_MODE_POINTS;
-            lines = lines || (primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES);
-        }
-    }
-    return std::string(points ? "points" : "") + (points && lines ? " and " : "") + (lines ? "lines" : "");
+    const auto isLines = [](const tinygltf::Primitive& primitive) {
+        return primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES;
+    };
+    return std::ranges::any_of(file.model.meshes,
+                               [&](const tinygltf::Mesh& mesh) { return std::ranges::any_of(mesh.primitives, isLines); });
 }
 
 // The texture coordinates that the material's tangents follow, if it needs any.
@@ -167,12 +164,14 @@ private:
     std::size_t useOf(std::size_t node, std::size_t mesh);
     void readUses();
     void placeUses();
-    void countTriangles();
+    void countShapes();
     static std::array<glm::dvec3, 8> cornersOf(const Mesh& mesh);
-    // The vertices of the instance's mesh; of a scene with very many the corners of a box around them.
+    // The vertices of the instance's mesh, or its points; of a scene with very many triangles the corners of a box around them.
     template <class Visit>
     void forEachPoint(const MeshInstance& instance, const Visit& visit) const;
     Box computeBox() const;
+    void growByPoints(Box& box) const;
+    void chooseLonePointRadius(const Box& box);
     void checkExtent(const Box& box) const;
     std::vector<Place> placesOf() const;
     void addPlaces(const MeshInstance& instance, std::size_t step, std::vector<Place>& places) const;
@@ -188,7 +187,7 @@ private:
     std::vector<ReadMeshes::Use> uses_;
     std::vector<std::pair<PlacedNode, std::size_t>> placed_;  // each with its use
     std::vector<WorldSphere> spheres_;
-    std::size_t triangles_ = 0, emptySpheres_ = 0;
+    std::size_t triangles_ = 0, points_ = 0, emptySpheres_ = 0;
 };
 
 void GeometryReader::addNode(const PlacedNode& node)
@@ -250,7 +249,10 @@ void GeometryReader::readUses()
     for (const ReadMeshes::Use& use : uses_) {
         std::vector<std::uint32_t>& ids = read_.meshesOf.emplace_back();
         for (Mesh& mesh : readMeshes(file_, use.mesh, use.pose, read_.warnings)) {
-            if (const std::optional<std::uint32_t> uvSet = needs[mesh.material].uvSetOfTangents) {
+            if (mesh.isCloud) {
+                mesh.pointRadius =
+                    scene_.pointRadius || mesh.pointRadius > 0.0 ? mesh.pointRadius : 0.5 * computePointSpacing(mesh.positions);
+            } else if (const std::optional<std::uint32_t> uvSet = needs[mesh.material].uvSetOfTangents) {
                 giveTangents(mesh, *uvSet, read_.warnings);
             }
             ids.push_back(static_cast<std::uint32_t>(meshes.size()));
@@ -296,14 +298,17 @@ void GeometryReader::addInstances(const PlacedNode& node, std::size_t mesh)
 
 void GeometryReader::addInstance(const PlacedNode& placed, std::size_t mesh) { placed_.emplace_back(placed, useOf(placed.index, mesh)); }
 
-void GeometryReader::countTriangles()
+void GeometryReader::countShapes()
 {
     for (const MeshInstance& instance : scene_.instances) {
-        triangles_ += scene_.meshes[instance.mesh].indices.size() / 3;
+        const Mesh& mesh = scene_.meshes[instance.mesh];
+        triangles_ += mesh.indices.size() / 3;
+        points_ += mesh.isCloud ? mesh.positions.size() : 0;
     }
-    if (triangles_ > std::numeric_limits<std::uint32_t>::max()) {
+    if (triangles_ + points_ > std::numeric_limits<std::uint32_t>::max()) {
         refuse(file_, MessageId::TooLarge,
-               {"the scene has ", part::value(std::to_string(triangles_)), " triangles; expected ", part::expected("at most 4294967295")});
+               {"the scene has ", part::value(std::to_string(triangles_ + points_)), " triangles and points; expected ",
+                part::expected("at most 4294967295")});
     }
     if (triangles_ > kMaxFlatTriangles && read_.corners.empty()) {
         for (const Mesh& mesh : scene_.meshes) {
@@ -329,6 +334,9 @@ template <class Visit>
 void GeometryReader::forEachPoint(const MeshInstance& instance, const Visit& visit) const
 {
     const Mesh& mesh = scene_.meshes[instance.mesh];
+    for (std::size_t i = 0; mesh.isCloud && i < mesh.positions.size(); ++i) {
+        visit(mesh.positions[i]);
+    }
     if (mesh.indices.empty()) {
         return;
     }
@@ -363,6 +371,29 @@ Box GeometryReader::computeBox() const
     return box;
 }
 
+// By the radii of points: the box holds their centres.
+void GeometryReader::growByPoints(Box& box) const
+{
+    double radius = 0.0;
+    for (const MeshInstance& instance : scene_.instances) {
+        if (scene_.meshes[instance.mesh].isCloud) {
+            radius = std::max(radius, static_cast<double>(computePointRadius(scene_, instance)));
+        }
+    }
+    box = {box.min - radius, box.max + radius};
+}
+
+// 1 % of the scene, or 1 cm where that has no size.
+void GeometryReader::chooseLonePointRadius(const Box& box)
+{
+    constexpr double kShare = 0.01;
+    const bool isAsked = std::ranges::any_of(scene_.meshes, [](const Mesh& mesh) { return mesh.isCloud && mesh.pointRadius == 0.0; });
+    if (isAsked && !scene_.pointRadius) {
+        const double extent = chooseExtent(box);
+        scene_.lonePointRadius = kShare * (extent > 0.0 ? extent : 1.0);
+    }
+}
+
 // Areas and volumes of what is drawn have to fit float32. What is too small may be one moment of an animation, whose picture is empty
 // rightly.
 void GeometryReader::checkExtent(const Box& box) const
@@ -380,12 +411,17 @@ void GeometryReader::checkExtent(const Box& box) const
     }
 }
 
-// Every step-th triangle.
+// Every step-th triangle or point.
 void GeometryReader::addPlaces(const MeshInstance& instance, std::size_t step, std::vector<Place>& places) const
 {
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const glm::dmat3 linear(instance.worldFromMesh);
     const glm::dvec3 translation(instance.worldFromMesh[3]);
+    const double diameter = mesh.isCloud ? 2.0 * static_cast<double>(computePointRadius(scene_, instance)) : 0.0;
+    for (std::size_t i = 0; mesh.isCloud && i < mesh.positions.size(); i += step) {
+        places.push_back({linear * mesh.positions[i] + translation, diameter,
+                          static_cast<double>(std::min(step, mesh.positions.size() - i)), instance.node});
+    }
     const std::size_t count = mesh.indices.size() / 3;
     for (std::size_t i = 0; i < count; i += step) {
         Box box;
@@ -401,7 +437,7 @@ void GeometryReader::addPlaces(const MeshInstance& instance, std::size_t step, s
 std::vector<Place> GeometryReader::placesOf() const
 {
     std::vector<Place> places;
-    const std::size_t step = std::max<std::size_t>(1, triangles_ / kMaxPlaces);
+    const std::size_t step = std::max<std::size_t>(1, (triangles_ + points_) / kMaxPlaces);
     for (const MeshInstance& instance : scene_.instances) {
         addPlaces(instance, step, places);
     }
@@ -425,9 +461,11 @@ void GeometryReader::finish()
 {
     readUses();
     placeUses();
-    countTriangles();
-    if (triangles_ + spheres_.size() > 0) {
-        const Box box = computeBox();
+    countShapes();
+    if (triangles_ + points_ + spheres_.size() > 0) {
+        Box box = computeBox();
+        chooseLonePointRadius(box);
+        growByPoints(box);
         checkExtent(box);
         placeOrigin(box);
     }
@@ -474,6 +512,9 @@ void requireShapes(const GltfFile& file, const Scene& scene)
     for (const MeshInstance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         triangles += mesh.indices.size() / 3;
+        if (mesh.isCloud) {
+            return;
+        }
         if (flatMeshes[instance.mesh]) {
             continue;
         }
@@ -482,15 +523,15 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         }
         flatMeshes[instance.mesh] = isFlat(PlacedMesh(mesh, glm::dmat3(1.0), glm::dvec3(0.0)));
     }
-    if (const std::string others = listPointsAndLines(file); triangles == 0 && !others.empty()) {
+    if (triangles == 0 && hasLines(file)) {
         refuse(file, MessageId::Unsupported,
-               {"the file holds ", part::value(others), ", which glim does not draw; expected ", part::expected("triangles")});
+               {"the file holds ", part::value("lines"), ", which glim does not draw; expected ", part::expected("triangles or points")});
     }
     const std::string flat = counted(triangles, "triangle");
     const MessagePart found =
         triangles == 0 ? MessagePart("") : MessagePart(MessagePart::Kind::Value, " (" + flat + " of zero area)", flat);
     refuse(file, MessageId::Empty,
-           {"the scene has no triangle and no sphere to draw", found, "; expected ", part::expected("at least one")});
+           {"the scene has no triangle, no point and no sphere to draw", found, "; expected ", part::expected("at least one")});
 }
 
 }  // namespace glim

@@ -1,5 +1,6 @@
 #include "host/scene/gltf/read_geometry.hpp"
 
+#include "host/image/srgb.hpp"
 #include "host/scene/gltf/read_accessor.hpp"
 #include "host/scene/gltf/read_material.hpp"
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -116,6 +118,100 @@ std::vector<glm::vec2> readUvs(const GltfFile& file, const tinygltf::Primitive& 
                                     place);
 }
 
+Mesh readTriangles(const GltfFile& file, const tinygltf::Primitive& primitive, int material, const std::string& place)
+{
+    Mesh mesh;
+    mesh.positions = readPositions(file, static_cast<std::size_t>(primitive.attributes.at("POSITION")), place);
+    const std::size_t count = mesh.positions.size();
+    mesh.normals = readAttribute<glm::dvec3>(file, primitive.attributes, "NORMAL", "normals", count, place);
+    mesh.tangents = readAttribute<glm::vec4>(file, primitive.attributes, "TANGENT", "tangents", count, place);
+    mesh.uv0 = readUvs(file, primitive, uvSetsOf(file, material)[0], count, place);
+    mesh.uv1 = readUvs(file, primitive, uvSetsOf(file, material)[1], count, place);
+    mesh.colors = readAttribute<glm::vec4>(file, primitive.attributes, "COLOR_0", "vertex colours", count, place);
+    const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, count, place);
+    checkVertexCount(file, order.size(), primitive.mode, place);
+    mesh.indices = listTriangles(order, primitive.mode);
+    return mesh;
+}
+
+constexpr const char* kSplatting = "KHR_gaussian_splatting";
+
+// The colours of splats as they are seen from everywhere: the first spherical harmonic, of the extension's colour space.
+std::vector<glm::vec4> readSplatColors(const GltfFile& file, const tinygltf::Primitive& primitive, std::size_t count,
+                                       const std::string& place)
+{
+    constexpr float kHarmonic = 0.28209479F;  // 1 / (2 sqrt(pi))
+    const tinygltf::Value& splatting = primitive.extensions.at(kSplatting);
+    const bool isLinear = splatting.Has("colorSpace") && splatting.Get("colorSpace").IsString() &&
+                          splatting.Get("colorSpace").Get<std::string>() == "lin_rec709_display";
+    std::vector<glm::vec4> colors;
+    for (const glm::dvec3& coefficient : readAttribute<glm::dvec3>(
+             file, primitive.attributes, std::string(kSplatting) + ":SH_DEGREE_0_COEF_0", "colours of splats", count, place)) {
+        glm::vec4 color(1.0F);
+        for (int c = 0; c < 3; ++c) {
+            const float seen = 0.5F + kHarmonic * static_cast<float>(coefficient[c]);
+            color[c] = isLinear ? seen : static_cast<float>(linearFromSrgb(static_cast<double>(seen)));
+        }
+        colors.push_back(color);
+    }
+    return colors;
+}
+
+// extras.radius, else 0.
+double readPointRadius(const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
+{
+    if (!primitive.extras.IsObject() || !primitive.extras.Has("radius")) {
+        return 0.0;
+    }
+    const tinygltf::Value& radius = primitive.extras.Get("radius");
+    if (radius.IsNumber() && radius.GetNumberAsDouble() > 0.0 && std::isfinite(radius.GetNumberAsDouble())) {
+        return radius.GetNumberAsDouble();
+    }
+    warnings.add(MessageId::ExtrasIgnored, "radii of points that are no number above 0 are ignored", place + ".extras.radius");
+    return 0.0;
+}
+
+// A cloud. `indices` still choose from its points, as they are posed first.
+Mesh readCloud(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
+{
+    Mesh mesh;
+    mesh.isCloud = true;
+    mesh.positions = readPositions(file, static_cast<std::size_t>(primitive.attributes.at("POSITION")), place);
+    const std::size_t count = mesh.positions.size();
+    mesh.colors = readAttribute<glm::vec4>(file, primitive.attributes, "COLOR_0", "vertex colours", count, place);
+    mesh.pointRadius = readPointRadius(primitive, place, warnings);
+    if (primitive.indices >= 0) {
+        mesh.indices = readVertexOrder(file, primitive, count, place);
+    }
+    if (primitive.extensions.count(kSplatting) > 0) {
+        warnings.add(MessageId::SplatsAsPoints, "splats (KHR_gaussian_splatting) are drawn as opaque points", place);
+        mesh.colors = mesh.colors.empty() ? readSplatColors(file, primitive, count, place) : mesh.colors;
+    }
+    return mesh;
+}
+
+template <class Value>
+void choose(std::vector<Value>& values, const std::vector<std::uint32_t>& indices)
+{
+    std::vector<Value> chosen;
+    if (!values.empty()) {
+        chosen.reserve(indices.size());
+        for (const std::uint32_t index : indices) {
+            chosen.push_back(values[index]);
+        }
+    }
+    values = std::move(chosen);
+}
+
+void choosePoints(Mesh& cloud)
+{
+    const std::vector<std::uint32_t> indices = std::exchange(cloud.indices, {});
+    if (!indices.empty()) {
+        choose(cloud.positions, indices);
+        choose(cloud.colors, indices);
+    }
+}
+
 std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
 {
     const auto position = primitive.attributes.find("POSITION");
@@ -123,10 +219,8 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
         warnings.add(MessageId::MeshWithoutPosition, "meshes without POSITION are left out", place);
         return std::nullopt;
     }
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        const bool isPoints = primitive.mode == TINYGLTF_MODE_POINTS;
-        warnings.add(isPoints ? MessageId::PointsLeftOut : MessageId::LinesLeftOut, isPoints ? "points are left out" : "lines are left out",
-                     place);
+    if (primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        warnings.add(MessageId::LinesLeftOut, "lines are left out", place);
         return std::nullopt;
     }
     const auto isEmpty = [&file](int accessor) {
@@ -136,18 +230,9 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
         warnings.add(MessageId::EmptyMesh, "meshes without vertices are left out", place);
         return std::nullopt;
     }
-    Mesh mesh;
-    mesh.positions = readPositions(file, static_cast<std::size_t>(position->second), place);
-    const std::size_t count = mesh.positions.size();
-    mesh.normals = readAttribute<glm::dvec3>(file, primitive.attributes, "NORMAL", "normals", count, place);
-    mesh.tangents = readAttribute<glm::vec4>(file, primitive.attributes, "TANGENT", "tangents", count, place);
     const int material = getMaterial(file, primitive);
-    mesh.uv0 = readUvs(file, primitive, uvSetsOf(file, material)[0], count, place);
-    mesh.uv1 = readUvs(file, primitive, uvSetsOf(file, material)[1], count, place);
-    mesh.colors = readAttribute<glm::vec4>(file, primitive.attributes, "COLOR_0", "vertex colours", count, place);
-    const std::vector<std::uint32_t> order = readVertexOrder(file, primitive, count, place);
-    checkVertexCount(file, order.size(), primitive.mode, place);
-    mesh.indices = listTriangles(order, primitive.mode);
+    Mesh mesh = primitive.mode == TINYGLTF_MODE_POINTS ? readCloud(file, primitive, place, warnings)
+                                                       : readTriangles(file, primitive, material, place);
     mesh.material = static_cast<std::uint32_t>(material < 0 ? static_cast<int>(file.model.materials.size()) : material);
     return mesh;
 }
@@ -162,6 +247,9 @@ std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshP
         const std::string place = label("meshes", mesh, source.name) + ".primitives[" + std::to_string(i) + "]";
         if (std::optional<Mesh> read = readPrimitive(file, source.primitives[i], place, warnings)) {
             poseMesh(file, source, i, pose, place, *read, warnings);
+            if (read->isCloud) {
+                choosePoints(*read);
+            }
             read->name = source.primitives.size() == 1 ? source.name : source.name + "." + std::to_string(i);
             read->fileMesh = static_cast<std::uint32_t>(mesh);
             meshes.push_back(std::move(*read));
