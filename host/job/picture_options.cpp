@@ -74,7 +74,7 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.sun = parseSun(value); });
     addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
             options.showsBackFaces);
-    addNumber<double>(table, {"--point-radius", "R", "Radius of the spheres that points are drawn as, in metres", 1e-9, 1e9, "by the file"},
+    addNumber<double>(table, {"--point-radius", "R", "Radius of points, in metres", 1e-9, 1e9, "by the file"},
                       [&options](double metres) { options.pointRadius = metres; });
     table.addEach("--set", "POINTER=VALUE", "Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });

@@ -53,6 +53,13 @@ const Breakage kBreakages[] = {
     {MessageId::OutOfRange, "instance 0", "a transform", [](Scene& s) { s.instances[0].worldFromMesh[3].x = kInfinity; }},
     {MessageId::Degenerate, "instance 0", "a transform", [](Scene& s) { s.instances[0].worldFromMesh[1].w = 1.0; }},
     {MessageId::Degenerate, "instance 0", "a transform", [](Scene& s) { s.instances[0].worldFromMesh[1].y = 0.0; }},
+    {MessageId::Mismatch, "mesh 1", "points", [](Scene& s) { s.meshes.change()[1].isCloud = true; }},
+    {MessageId::OutOfRange, "instance 1", "points",
+     [](Scene& s) {
+         s.meshes.change()[1].indices.clear();
+         s.meshes.change()[1].isCloud = true;
+         s.pointRadius = 1e300;
+     }},
     {MessageId::OutOfRange, "sphere 0", "a centre", [](Scene& s) { s.spheres[0].center.x = kInfinity; }},
     {MessageId::OutOfRange, "sphere 0", "a radius", [](Scene& s) { s.spheres[0].radius = -1; }},
     {MessageId::DanglingIndex, "sphere 0", "a material", [](Scene& s) { s.spheres[0].material = 9; }},

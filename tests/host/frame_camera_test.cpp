@@ -86,6 +86,24 @@ TEST(FrameCamera, HugeGroundsAreLeftOut)
     EXPECT_GT(glm::length(frameCamera(ground, 1.5F).position), 1000.0F) << "alone it is the subject";
 }
 
+// As the spheres that they are drawn as.
+TEST(FrameCamera, PointsAreFramedWithTheirRadii)
+{
+    Scene cloud, spheres;
+    cloud.materials.resize(1);
+    Mesh mesh;
+    mesh.isCloud = true;
+    mesh.pointRadius = 0.5;
+    mesh.positions = {{1, 2, 3}, {-1, 5, 0}, {0, 0, 2}};
+    for (const glm::dvec3& position : mesh.positions) {
+        spheres.spheres.push_back({"", position, 0.5F, 0});
+    }
+    cloud.meshes.change().push_back(mesh);
+    cloud.instances.push_back({"cloud", 0});
+    EXPECT_EQ(frameCamera(cloud, 1.5F).position, frameCamera(spheres, 1.5F).position);
+    EXPECT_EQ(frameTurntable(cloud, 1.5F, 4)[1].from, frameTurntable(spheres, 1.5F, 4)[1].from);
+}
+
 // The box turns about its axis. From every side it is within the margin, and from one it reaches it.
 TEST(FrameCamera, TurntablesShowTheBoxFromEverySide)
 {

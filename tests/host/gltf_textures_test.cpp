@@ -336,7 +336,7 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
         builder.document["extensionsUsed"] = {extension};
         return builder;
     };
-    for (const char* extension : {"EXT_texture_avif", "MSFT_texture_dds", "KHR_gaussian_splatting", "VENDOR_unknown"}) {
+    for (const char* extension : {"EXT_texture_avif", "MSFT_texture_dds", "KHR_gaussian_splatting_compression_spz", "VENDOR_unknown"}) {
         expectRefused(require(extension), MessageId::Unsupported, {.place = "extensionsRequired", .value = extension});
     }
     for (const char* extension :

@@ -102,7 +102,7 @@ class SceneTest(unittest.TestCase):
 
     def test_what_is_refused(self):
         for name, part in (("stretched_sphere.gltf", "expected a uniform scale"),
-                           ("required_extension.gltf", "requires KHR_gaussian_splatting"),
+                           ("required_extension.gltf", "requires KHR_gaussian_splatting_compression_spz"),
                            ("environment_map.gltf", "sky.exr, which cannot be read"), ("not_json.gltf", "is not glTF 2.0"),
                            ("missing_buffer.gltf", "cannot be read"), ("odd_component.gltf", "which is not exported"),
                            ("no_such_accessor.gltf", "is not glTF 2.0"),

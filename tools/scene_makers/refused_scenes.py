@@ -129,7 +129,7 @@ REFUSED = {
     "truncated.glb": lambda: glb(cut=10),
     "no_asset.gltf": lambda: drop("asset"),
     "old_version.gltf": lambda: put("asset", "version", "1.0"),
-    "required_extension.gltf": lambda: put("extensionsRequired", ["KHR_gaussian_splatting"]),
+    "required_extension.gltf": lambda: put("extensionsRequired", ["KHR_gaussian_splatting_compression_spz"]),
     # buffers and accessors
     "missing_buffer.gltf": lambda: put("buffers", 0, "uri", "nowhere.bin"),
     "absolute_buffer.gltf": lambda: put("buffers", 0, "uri", "https://example.org/a.bin"),
