@@ -82,7 +82,6 @@
     ID(GreyImage)                                                         \
     ID(UnknownSampler)                                                    \
     ID(SplatsAsPoints)                                                    \
-    ID(LinesLeftOut)                                                      \
     ID(TextureWithoutSource)                                              \
     ID(TooManyUvSets)                                                     \
     ID(FlatTriangle)                                                      \

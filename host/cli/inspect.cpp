@@ -31,19 +31,27 @@ struct InspectOptions {
 using Counts = std::vector<std::pair<const char*, std::size_t>>;
 using Needs = std::vector<std::pair<const char*, bool>>;
 
-std::size_t countPoints(const Scene& scene)
+struct CloudCounts {
+    std::size_t points = 0, lines = 0;
+};
+
+CloudCounts countClouds(const Scene& scene)
 {
-    std::size_t points = 0;
+    CloudCounts counts;
     for (const MeshInstance& instance : scene.instances) {
-        points += scene.meshes[instance.mesh].isCloud ? scene.meshes[instance.mesh].positions.size() : 0;
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        counts.points += mesh.isCloud && mesh.lines.empty() ? mesh.positions.size() : 0;
+        counts.lines += mesh.lines.size();
     }
-    return points;
+    return counts;
 }
 
 Counts countsOf(const PreparedScene& prepared)
 {
+    const CloudCounts clouds = countClouds(prepared.scene);
     return {{"triangles", prepared.primitives.computeTriangleCount()},
-            {"points", countPoints(prepared.scene)},
+            {"points", clouds.points},
+            {"lines", clouds.lines},
             {"spheres", prepared.scene.spheres.size()},
             {"meshes", prepared.scene.meshes.size()},
             {"instances", prepared.scene.instances.size()},

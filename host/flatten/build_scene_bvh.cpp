@@ -18,7 +18,11 @@ namespace {
 constexpr double kWorthwhile = 0.9;
 
 // Rounded outwards.
-Box computeBox(const PlacedSphere& sphere) { return roundOutwards({sphere.center - sphere.radius, sphere.center + sphere.radius}); }
+Box computeBox(const PlacedSphere& sphere)
+{
+    const glm::vec3 end = sphere.center + sphere.axis;
+    return roundOutwards({glm::min(sphere.center, end) - sphere.radius, glm::max(sphere.center, end) + sphere.radius});
+}
 
 std::vector<Box> boxesOf(std::span<const Triangle> triangles)
 {
@@ -120,7 +124,7 @@ bool areSame(const Triangle& a, const Triangle& b)
     return a.vertices[0] == b.vertices[0] && a.vertices[1] == b.vertices[1] && a.vertices[2] == b.vertices[2];
 }
 
-bool areSame(const PlacedSphere& a, const PlacedSphere& b) { return a.center == b.center && a.radius == b.radius; }
+bool areSame(const PlacedSphere& a, const PlacedSphere& b) { return a.center == b.center && a.radius == b.radius && a.axis == b.axis; }
 
 bool areSame(const Placement& a, const Placement& b)
 {

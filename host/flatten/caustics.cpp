@@ -45,8 +45,8 @@ BoundingSphere boundingSphere(std::span<const BoundingSphere> spheres)
 
 BoundingSphere computeBoundingSphere(const PlacedSphere& sphere)
 {
-    const double radius = static_cast<double>(sphere.radius);
-    return {sphere.center, radius, 4.0 * pi * radius * radius};
+    const double radius = static_cast<double>(sphere.radius), half = 0.5 * static_cast<double>(glm::length(sphere.axis));
+    return {sphere.center + 0.5F * sphere.axis, radius + half, 4.0 * pi * radius * (radius + half)};
 }
 
 BoundingSphere boundingSphere(std::span<const Triangle> triangles)
@@ -330,8 +330,9 @@ double roomArea(const Primitives& primitives, std::span<const BoundingSphere> pl
         }
     }
     for (const PlacedSphere& sphere : primitives.spheres) {
-        low = glm::min(low, glm::dvec3(sphere.center - sphere.radius));
-        high = glm::max(high, glm::dvec3(sphere.center + sphere.radius));
+        const glm::vec3 end = sphere.center + sphere.axis;
+        low = glm::min(low, glm::dvec3(glm::min(sphere.center, end) - sphere.radius));
+        high = glm::max(high, glm::dvec3(glm::max(sphere.center, end) + sphere.radius));
     }
     for (const BoundingSphere& sphere : placed) {
         low = glm::min(low, sphere.center - sphere.radius);

@@ -65,8 +65,20 @@ struct PrimitiveRefs {
     }
     void push(const PlacedSphere& sphere, std::uint32_t id, std::uint32_t material, bool alpha, const glm::vec4& color)
     {
-        push(sphere.center, id, {sphere.radius, color.a, 0.0F}, material | kSphereBit, alpha, glm::vec3(color));
+        if (!sphere.isLine()) {
+            push(sphere.center, id, {sphere.radius, color.a, 0.0F}, material | kSphereBit, alpha, glm::vec3(color));
+            return;
+        }
+        features |= kFeatureLines;
+        const auto pack = [](float low, float high) {
+            const auto steps = [](float value) { return static_cast<std::uint32_t>(std::lround(0x1p15F * value)); };
+            return steps(low) | steps(high) << 16U;
+        };
+        push(sphere.center, id, sphere.axis, material | kSphereBit | kSliverBit, alpha, glm::vec3(0.0F));
+        texels.back() = {std::bit_cast<std::uint32_t>(sphere.radius), pack(color.r, color.g), pack(color.b, color.a), 0};
     }
+    // Of the last reference: it emits, and lights are not sampled there.
+    void markUnsampled() { texels.back().w = kUnsampledLight; }
 
 private:
     void push(const glm::vec3& first, std::uint32_t id, const glm::vec3& second, std::uint32_t material, bool alpha, const glm::vec3& third)
@@ -87,6 +99,9 @@ glm::vec4 colorOf(const Scene& scene, const PlacedSphere& sphere)
         return glm::vec4(1.0F);
     }
     const Mesh& mesh = scene.meshes[scene.instances[sphere.object].mesh];
+    if (!mesh.lines.empty()) {
+        return computeLineColor(mesh, sphere.point);
+    }
     return mesh.colors.empty() ? glm::vec4(1.0F) : glm::clamp(mesh.colors[sphere.point], 0.0F, 1.0F);
 }
 
@@ -112,6 +127,9 @@ void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives
         } else {
             const PlacedSphere& sphere = primitives.spheres[id - materials.size()];
             refs.push(sphere, id, words[sphere.material], alpha, colored ? colorOf(scene, sphere) : glm::vec4(0.0F));
+            if (sphere.isLine() && scene.materials[sphere.material].emission != glm::vec3(0.0F)) {
+                refs.markUnsampled();
+            }
         }
     }
     for (std::size_t i = 0; i < bvh.meshTrees.size(); ++i) {

@@ -191,12 +191,13 @@ std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
     if (std::ranges::none_of(primitives.spheres, [&](const PlacedSphere& sphere) { return emits(scene.materials[sphere.material]); })) {
         return 0;
     }
-    using Place = std::array<float, 4>;
+    using Place = std::array<float, 7>;
     const std::vector<PlacedSphere> spheres = std::exchange(primitives.spheres, {});
     const std::vector<bool> hasAlpha(primitives.hasAlpha);
     const std::size_t triangles = primitives.triangles.size();
     const auto placeOf = [&](std::size_t i) {
-        return Place{spheres[i].center.x, spheres[i].center.y, spheres[i].center.z, spheres[i].radius};
+        const auto& [center, axis] = std::tie(spheres[i].center, spheres[i].axis);
+        return Place{center.x, center.y, center.z, spheres[i].radius, axis.x, axis.y, axis.z};
     };
     const auto isClear = [&](std::size_t i) { return !hasAlpha.empty() && hasAlpha[triangles + i]; };
     const auto isLight = [&](std::size_t i) { return emits(scene.materials[spheres[i].material]) && !isClear(i); };

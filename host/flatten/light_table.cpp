@@ -177,7 +177,7 @@ public:
 
     void addSphere(const PlacedSphere& sphere, std::size_t index)
     {
-        if (!(strongestChannel(scene_.materials[sphere.material].emission) > 0.0)) {
+        if (sphere.isLine() || !(strongestChannel(scene_.materials[sphere.material].emission) > 0.0)) {
             return;
         }
         FlatLight light = surfaceLight(sphere.material);

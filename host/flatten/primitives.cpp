@@ -122,8 +122,14 @@ private:
         const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
         const PlacedMesh placed(scene_, scene_.instances[instance]);
         const float radius = computePointRadius(scene_, scene_.instances[instance]);
-        made_.spheres.reserve(made_.spheres.size() + mesh.positions.size());
-        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+        made_.spheres.reserve(made_.spheres.size() + (mesh.lines.empty() ? mesh.positions.size() : mesh.lines.size()));
+        for (std::uint32_t i = 0; i < mesh.lines.size(); ++i) {
+            const glm::vec3 end = placed.positions()[mesh.lines[i].x];
+            addPrimitive(alpha_.classify(mesh.material, computeLineColor(mesh, i).a), [&] {
+                made_.spheres.push_back({end, radius, mesh.material, instance, i, placed.positions()[mesh.lines[i].y] - end});
+            });
+        }
+        for (std::uint32_t i = 0; mesh.lines.empty() && i < mesh.positions.size(); ++i) {
             const float alpha = mesh.colors.empty() ? 1.0F : std::clamp(mesh.colors[i].a, 0.0F, 1.0F);
             addPrimitive(alpha_.classify(mesh.material, alpha), [&] {
                 made_.spheres.push_back({placed.positions()[i], radius, mesh.material, instance, i});
@@ -335,14 +341,23 @@ bool areSameSurface(const Material& a, const Material& b)
 
 }  // namespace
 
+glm::vec4 computeLineColor(const Mesh& mesh, std::uint32_t line)
+{
+    if (mesh.colors.empty()) {
+        return glm::vec4(1.0F);
+    }
+    const glm::uvec2 ends = mesh.lines[line];
+    return 0.5F * (glm::clamp(mesh.colors[ends.x], 0.0F, 1.0F) + glm::clamp(mesh.colors[ends.y], 0.0F, 1.0F));
+}
+
 Same compareSurfaces(const Scene& before, const Primitives& primitives, const Scene& scene)
 {
     const auto spheres = [](const Sphere& a, const Sphere& b) { return areIdentical(a, b); };
     const auto instances = [](const MeshInstance& a, const MeshInstance& b) { return a.mesh == b.mesh; };
     if (!before.meshes.isSameAs(scene.meshes) || before.origin != scene.origin || before.showsBackFaces != scene.showsBackFaces ||
         !std::ranges::equal(before.materials, scene.materials, areSameSurface) || before.pointRadius != scene.pointRadius ||
-        before.lonePointRadius != scene.lonePointRadius || !std::ranges::equal(before.spheres, scene.spheres, spheres) ||
-        !std::ranges::equal(before.instances, scene.instances, instances)) {
+        before.lineRadius != scene.lineRadius || before.lonePointRadius != scene.lonePointRadius ||
+        !std::ranges::equal(before.spheres, scene.spheres, spheres) || !std::ranges::equal(before.instances, scene.instances, instances)) {
         return Same::Nothing;
     }
     std::vector<bool> isShared(scene.meshes.size(), false);

@@ -60,8 +60,8 @@ Surface placed(Surface surface, const InstanceData& by)
     return surface;
 }
 
-// Visits each primitive of each instance once, with the float32 coordinates that the device has. Triangles share their rounded vertices, so
-// a closed surface stays closed.
+// Visits each primitive of each instance but lines once, with the float32 coordinates that the device has. Triangles share their rounded
+// vertices, so a closed surface stays closed.
 template <class Visit>
 void forEachSurface(const FlatScene& flat, const Visit& visit)
 {
@@ -74,7 +74,9 @@ void forEachSurface(const FlatScene& flat, const Visit& visit)
         const auto [first, last] = std::ranges::minmax(refs | std::views::transform(idOf));
         std::vector<bool> seen(last - first + 1);
         for (const std::uint32_t ref : refs) {
-            if (!seen[idOf(ref) - first]) {
+            const std::uint32_t bits = flat.primitiveRefs[std::size_t{ref} * kPrimitiveRefTexels + 1].w;
+            const bool isLine = (bits & kSphereBit) != 0 && (bits & kSliverBit) != 0;
+            if (!isLine && !seen[idOf(ref) - first]) {
                 seen[idOf(ref) - first] = true;
                 visit(place(makeSurface(&flat.primitiveRefs[std::size_t{ref} * kPrimitiveRefTexels])));
             }

@@ -74,8 +74,11 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.sun = parseSun(value); });
     addEnum(table, "--back-faces", "B", "Back faces of single-sided opaque surfaces: culled or shown [culled]", {"culled", "shown"},
             options.showsBackFaces);
-    addNumber<double>(table, {"--point-radius", "R", "Radius of points, in metres", 1e-9, 1e9, "by the file"},
-                      [&options](double metres) { options.pointRadius = metres; });
+    const auto addRadius = [&table](const char* name, const char* what, std::optional<double>& radius) {
+        addNumber<double>(table, {name, "R", what, 1e-9, 1e9, "by the file"}, [&radius](double metres) { radius = metres; });
+    };
+    addRadius("--point-radius", "Radius of points, in metres", options.pointRadius);
+    addRadius("--line-radius", "Radius of lines, in metres", options.lineRadius);
     table.addEach("--set", "POINTER=VALUE", "Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
     table.addEach("--add", "FILE[@x,y,z]", "Another file's shapes and lights, moved by metres or a matrix; repeatable",
@@ -211,6 +214,7 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     load.sun = options.sun;
     load.showsBackFaces = options.showsBackFaces;
     load.pointRadius = options.pointRadius;
+    load.lineRadius = options.lineRadius;
     load.edits = options.edits;
     load.additions = options.additions;
     load.missingTextures = options.missingTextures;

@@ -29,7 +29,7 @@ struct PictureOptions {
     bool environmentBackground = true;
     std::optional<Sun> sun;
     bool showsBackFaces = false;
-    std::optional<double> pointRadius;  // metres
+    std::optional<double> pointRadius, lineRadius;  // of all points and lines, metres
     std::vector<Edit> edits;
     std::vector<Addition> additions;
     MissingTextures missingTextures = MissingTextures::Refuse;

@@ -37,7 +37,9 @@ PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& pri
     if (id >= primitives.triangles.size()) {
         const PlacedSphere& placed = primitives.spheres[id - primitives.triangles.size()];
         if (placed.point != kNoIndex) {
-            return describePart(scene, scene.instances[placed.object], std::nullopt, placed.point);
+            PrimitiveDescription part = describePart(scene, scene.instances[placed.object], std::nullopt, placed.point);
+            part.isLine = !scene.meshes[scene.instances[placed.object].mesh].lines.empty();
+            return part;
         }
         const Sphere& sphere = scene.spheres[placed.object - scene.instances.size()];
         return {"sphere " + named(sphere.name),
@@ -67,7 +69,7 @@ PrimitiveDescription describeInstancedPrimitive(const PreparedScene& prepared, s
 std::string toText(const PrimitiveDescription& primitive)
 {
     return primitive.object + (primitive.triangle ? ", triangle " + std::to_string(*primitive.triangle)
-                               : primitive.point  ? ", point " + std::to_string(*primitive.point)
+                               : primitive.point  ? (primitive.isLine ? ", line " : ", point ") + std::to_string(*primitive.point)
                                                   : "");
 }
 

@@ -11,9 +11,10 @@ namespace glim {
 struct PrimitiveDescription {
     std::string object;                     // as in: instance "floor", or: sphere without a name
     std::optional<std::uint32_t> triangle;  // of its mesh; those of zero area do not count
-    std::optional<std::uint32_t> point;     // of its cloud
+    std::optional<std::uint32_t> point;     // of its cloud; or its line
     std::string material;
     std::uint32_t node, materialIndex;  // of the scene
+    bool isLine = false;                // and no point
 };
 
 // As in: instance "floor", triangle 3.

@@ -68,6 +68,9 @@ void SceneCheck::checkMeshes() const
                 MessageId::Mismatch, "mesh", i, "an attribute", "for some positions only");
         require(!mesh.isCloud || (mesh.indices.empty() && std::isfinite(mesh.pointRadius) && mesh.pointRadius >= 0.0), MessageId::Mismatch,
                 "mesh", i, "points", "with triangles, or of a radius that is negative or not finite");
+        require(mesh.lines.empty() || mesh.isCloud, MessageId::Mismatch, "mesh", i, "lines", "though it is no cloud");
+        require(std::ranges::all_of(mesh.lines, [count](const glm::uvec2& line) { return line.x < count && line.y < count; }),
+                MessageId::DanglingIndex, "mesh", i, "a line", "with an end that does not exist");
         require(mesh.indices.size() % 3 == 0, MessageId::Mismatch, "mesh", i, "a triangle", "with fewer than three vertices");
         require(std::ranges::all_of(mesh.indices, [count](std::uint32_t index) { return index < count; }), MessageId::DanglingIndex, "mesh",
                 i, "a triangle", "with a vertex that does not exist");

@@ -334,6 +334,7 @@ Framed FilePart::frameRestPose()
     posed_ = false;
     Scene rest;
     rest.pointRadius = options_.pointRadius;
+    rest.lineRadius = options_.lineRadius;
     rest.materials.resize(file_.model.materials.size() + 1);
     ReadMeshes unused;
     Warnings unheard;
@@ -365,6 +366,7 @@ Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
     scene.morphTargets = countAllMorphTargets(file_);
     scene.showsBackFaces = options_.showsBackFaces;
     scene.pointRadius = options_.pointRadius;
+    scene.lineRadius = options_.lineRadius;
     scene.materials.resize(file_.model.materials.size() + 1);
     warnings.add(file_.warnings);
     warnings.add(file_.editWarnings);

@@ -43,7 +43,7 @@ struct LoadOptions {
     bool environmentBackground = true;             // the camera sees the environment
     std::optional<Sun> sun;
     bool showsBackFaces = false;
-    std::optional<double> pointRadius;  // of all points, metres
+    std::optional<double> pointRadius, lineRadius;  // of all points and lines, metres
     MissingTextures missingTextures = MissingTextures::Refuse;
     bool confined = false;                     // refuses files that the scene names outside of its folder
     std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down

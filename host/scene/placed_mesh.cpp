@@ -47,8 +47,9 @@ Triangle PlacedMesh::triangle(std::size_t triangle) const
 float computePointRadius(const Scene& scene, const MeshInstance& instance)
 {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    if (scene.pointRadius || mesh.pointRadius == 0.0) {
-        return static_cast<float>(scene.pointRadius.value_or(scene.lonePointRadius));
+    const std::optional<double>& ofAll = mesh.lines.empty() ? scene.pointRadius : scene.lineRadius;
+    if (ofAll || mesh.pointRadius == 0.0) {
+        return static_cast<float>(ofAll.value_or(scene.lonePointRadius));
     }
     const glm::dmat3 linear(instance.worldFromMesh);
     const double even = computeUniformScale(linear);

@@ -34,7 +34,7 @@ private:
     std::vector<glm::vec3> positions_;  // by vertex
 };
 
-// Of the spheres that stand for the points of a cloud. An uneven scale counts as the even one that keeps volumes.
+// Of the points or lines of a cloud, in the world. An uneven scale counts as the even one that keeps volumes.
 float computePointRadius(const Scene& scene, const MeshInstance& instance);
 
 // The bounds of everything that has a surface, was not added to the scene and is no ground: flat and several times as long as all that is

@@ -97,8 +97,8 @@ inline Material makeLambert(const glm::vec3& albedo, const glm::vec3& emission =
 // Of what the file does not have.
 inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
-// Indexed triangles of one material, or a cloud of points, which are drawn as spheres. Attributes are per vertex: one for each position, or
-// none if the file has none.
+// Indexed triangles of one material, or a cloud of points or lines, which are drawn as spheres or as cylinders with round ends. Attributes
+// are per vertex: one for each position, or none if the file has none.
 struct Mesh {
     std::string name;
     // In double: what a file stores as normalised integers need not fit a float.
@@ -110,8 +110,9 @@ struct Mesh {
     std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from the front
     std::uint32_t material = 0;
     std::uint32_t fileMesh = kNoIndex;  // the file's mesh that this is a primitive of
-    bool isCloud = false;               // has no triangles, but a point at each position, with colours at most
+    bool isCloud = false;               // has no triangles, but a point at each position or lines; with colours at most
     double pointRadius = 0.0;           // of a cloud, in its own space; 0: Scene::lonePointRadius
+    std::vector<glm::uvec2> lines;      // of a cloud: between these positions, and then no points
 };
 
 // A mesh placed in the world.
@@ -201,8 +202,8 @@ struct Scene {
     std::vector<MeshInstance> instances;
     std::vector<Sphere> spheres;
     std::size_t addedInstances = 0, addedSpheres = 0;  // the last ones: of files that were added. Cameras are framed on the others
-    std::optional<double> pointRadius;                 // of all points, metres; else each cloud has its own, which its instances scale
-    double lonePointRadius = 0.0;                      // of the points of clouds that have none, metres
+    std::optional<double> pointRadius, lineRadius;     // of all, metres; else each cloud has its own, which its instances scale
+    double lonePointRadius = 0.0;                      // of clouds that have none, metres
     std::size_t flattened = 0;  // meshes and spheres of the file that are left out as their nodes are scaled to a plane, a line or a point
     std::vector<Material> materials;                // in the file's order
     std::optional<std::uint32_t> defaultMaterial;   // the one of them that the file does not have

@@ -3,6 +3,7 @@
 #define GLIM_ACCESS_BVH_TRAVERSAL
 
 #include "lib/finite.glsl"
+#include "lib/intersect_capsule.glsl"
 #include "lib/intersect_node.glsl"
 #include "lib/intersect_sphere.glsl"
 #include "lib/intersect_triangle.glsl"
@@ -28,6 +29,10 @@ TriangleHit intersectTriangle(TraversalRay traversal, PrimitiveRef ref, float tM
 
 float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource)
 {
+    if (isLine(ref)) {
+        return intersectCapsule(traversal.origin, traversal.direction, toFloats(ref.t0), toFloats(ref.t1), uintBitsToFloat(ref.t2.x), tMax,
+                                isSource);
+    }
     return intersectSphere(traversal.origin, traversal.direction, toFloats(ref.t0), uintBitsToFloat(ref.t1.x), tMax, isSource);
 }
 
@@ -41,7 +46,8 @@ float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool
 {
     float t = intersectSphere(traversal, ref, tMax, isSource);
     if (isSingleSided(ref) && sides != (kFronts | kBacks)) {
-        bool fromWithin = dot(traversal.origin + t * traversal.direction - toFloats(ref.t0), traversal.direction) > 0.0;
+        vec3 p = traversal.origin + t * traversal.direction;
+        bool fromWithin = dot(p - sphereCenter(ref, p), traversal.direction) > 0.0;
         if (sides == kBacks && !fromWithin) {
             t = intersectSphere(traversal, ref, tMax, true);
         }

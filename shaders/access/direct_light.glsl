@@ -42,6 +42,9 @@ vec3 weightedEnvironment(PathRay ray, PathState state)
 vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray, PathHit hit, PathState state)
 {
     vec3 emission = emittedRadiance(si, material);
+    if (hasFeature(kFeatureLines) && si.light == kUnsampledLight) {
+        return emission;
+    }
     if (hasFeature(kFeatureCaustics) && !(state.pdf > 0.0) && (ray.media & kIsDiffuseFirst) != 0u) {
         return vec3(0.0);  // a caustic, which light paths have
     }

@@ -92,11 +92,15 @@ vec3 vertexNormal(uint triangle, uint instance, vec2 barycentric)
 
 SurfaceInteraction interactionWithSphere(PrimitiveRef ref, uint index, vec3 near)
 {
-    vec3 center = toFloats(ref.t0);
-    float radius = uintBitsToFloat(ref.t1.x);
+    vec3 center = sphereCenter(ref, near);
+    float radius = sphereRadius(ref);
     vec3 n = near - center;
     n = n / length(n);
-    return SurfaceInteraction(center + radius * n, sphereErrorBound(center, radius), n, n, vec2(0.0), true, getMaterial(ref),
+    vec3 errorBound = sphereErrorBound(center, radius);
+    if (isLine(ref)) {
+        errorBound += lineErrorBound(toFloats(ref.t1), radius);
+    }
+    return SurfaceInteraction(center + radius * n, errorBound, n, n, vec2(0.0), true, getMaterial(ref),
                               getPrimitive(ref), ref.t2.w, hasFeature(kFeaturePointColors) ? index : 0u, kNoInstance);
 }
 

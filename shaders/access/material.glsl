@@ -32,7 +32,7 @@ vec4 textureCoordinates(PlacedPrimitive placed, vec3 point, vec2 barycentric)
         return vec4(0.0);
     }
     if (isSphere(placed.ref)) {
-        return latLongFromDirection(normalizeSafely(point - toFloats(placed.ref.t0))).xyxy;
+        return latLongFromDirection(normalizeSafely(point - sphereCenter(placed.ref, point))).xyxy;
     }
     return vertexAttribute(render.firstUv, placed.triangle, barycentric);
 }

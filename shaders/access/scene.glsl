@@ -161,9 +161,31 @@ uint getPrimitive(PrimitiveRef ref)
 
 #define isSphere(ref) (hasFeature(kFeatureSpheres) && ((ref).t1.w & kSphereBit) != 0u)
 
+// Of what is a sphere.
+#define isLine(ref) (hasFeature(kFeatureLines) && ((ref).t1.w & kSliverBit) != 0u)
+
+float sphereRadius(PrimitiveRef ref)
+{
+    return uintBitsToFloat(isLine(ref) ? ref.t2.x : ref.t1.x);
+}
+
+// The centre, or of a line the place of its axis that is closest to p.
+vec3 sphereCenter(PrimitiveRef ref, vec3 p)
+{
+    vec3 center = toFloats(ref.t0);
+    if (isLine(ref)) {
+        vec3 axis = toFloats(ref.t1);
+        center += axis * clamp(dot(p - center, axis) / dot(axis, axis), 0.0, 1.0);
+    }
+    return center;
+}
+
 // That multiplies the base colour. Only with kFeaturePointColors.
 vec4 sphereColor(PrimitiveRef ref)
 {
+    if (isLine(ref)) {
+        return vec4(ref.t2.y & 0xffffu, ref.t2.y >> 16u, ref.t2.z & 0xffffu, ref.t2.z >> 16u) * 3.0517578125e-5;
+    }
     return vec4(toFloats(ref.t2), uintBitsToFloat(ref.t1.y));
 }
 

@@ -15,7 +15,7 @@ const uint kMaxPassed = 256u;
 
 vec3 geometricNormal(PlacedPrimitive placed, vec3 point)
 {
-    return isSphere(placed.ref) ? normalizeSafely(point - toFloats(placed.ref.t0)) : placedNormal(placed);
+    return isSphere(placed.ref) ? normalizeSafely(point - sphereCenter(placed.ref, point)) : placedNormal(placed);
 }
 
 // What the interface of a smooth thin wall transmits straight, per channel: 1 - F, by the geometric normal.
@@ -65,7 +65,8 @@ Crossing computeCrossing(PlacedPrimitive placed, PathRay ray, vec3 direction, Pa
 // two sides of a sphere draw for themselves.
 bool ignoresHit(SampleId id, uint bounce, PrimitiveRef ref, PathRay ray, PathHit hit, Crossing crossing, out vec3 weight)
 {
-    bool leaves = isSphere(ref) && dot(ray.origin + ray.direction * hit.t - toFloats(ref.t0), ray.direction) > 0.0;
+    vec3 point = ray.origin + ray.direction * hit.t;
+    bool leaves = isSphere(ref) && dot(point - sphereCenter(ref, point), ray.direction) > 0.0;
     uint bits = hash4(uvec4(id.pixel, id.index, kDimensionAlpha | bounce << 1u | uint(leaves),
                             id.seed ^ getPrimitive(ref) * 0x9e3779b9u)).x;
     if (!hasFeature(kFeatureThinWalls)) {

@@ -44,6 +44,13 @@ vec3 sphereErrorBound(vec3 center, float radius)
     return 5.9604645e-8 * abs(center) + vec3(2.3841858e-7 * radius);
 }
 
+// What a line has more: the place on its axis rounds by its length, and so does the test whether a point is outside (intersectCapsule).
+// Neighbours in a strip share the ball between them, so that a ray that leaves one must start outside of the other.
+vec3 lineErrorBound(vec3 axis, float radius)
+{
+    return vec3(4.7683716e-7 * (length(axis) + radius));
+}
+
 // The next float above x if `side` is positive, below x if it is negative.
 float nextAlong(float x, float side)
 {

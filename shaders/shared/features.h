@@ -44,7 +44,8 @@ GLIM_SHARED_BEGIN
     FEATURE(LightsInMedia, 32, "lights in volumes") /* with Media */ \
     FEATURE(SingleSided, 33, "single-sided surfaces") /* not there for rays from behind */ \
     FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */ \
-    FEATURE(PointColors, 35, "coloured points") /* spheres with colours of their own */
+    FEATURE(PointColors, 35, "coloured points") /* spheres and lines with colours of their own */ \
+    FEATURE(Lines, 36, "lines") /* with Spheres */
 // clang-format on
 
 #ifdef __cplusplus
@@ -62,7 +63,8 @@ GLIM_FEATURES(GLIM_FEATURE)
 GLIM_CONST FeatureMask kLayerFeatures =
     kFeatureClearcoat | kFeatureSheen | kFeatureAnisotropy | kFeatureIridescence | kFeatureTransmission | kFeatureDiffuseTransmission;
 // Surfaces that emit.
-GLIM_CONST FeatureMask kEmissiveSurfaces = kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureUnlit;
+GLIM_CONST FeatureMask kEmissiveSurfaces =
+    kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights | kFeatureUnlit | kFeatureLines;
 
 #ifdef __cplusplus
 inline constexpr FeatureMask kAllFeatures = ~FeatureMask{0};  // of any scene

@@ -23,7 +23,9 @@ GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many references at mos
 // Primitive references are in the order of the leaves, three texels each. A primitive may have several, all alike:
 //   triangle: (v0.xyz, primitive id) (v1.xyz, material | bits) (v2.xyz, light + 1 or 0)
 //   sphere:   (centre.xyz, primitive id) (radius, alpha, 0, material | bits) (colour.rgb, light + 1 or 0)
-// Without kFeaturePointColors colour and alpha of spheres are 0 and mean nothing.
+//   line:     (end.xyz, primitive id) (to the other end, material | bits) (radius, packed colour, light + 1 or 0)
+// A line is a sphere that moves from end to end, and has its bit. Colours of lines are four channels of 16 bits each, in steps of 2^-15.
+// Without kFeaturePointColors colour and alpha of spheres and lines are 0 and mean nothing.
 // The primitive id is the index in the scene (triangles, then spheres). A ray's source and target are primitive ids, and the lower id wins
 // a tie, so pictures do not depend on the tree.
 //
@@ -38,7 +40,7 @@ GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many references at mos
 // instances begin at RenderParameters::firstInstanceRef, in the order of the instances; no buffer has them.
 GLIM_CONST uint kPrimitiveRefTexels = 3u;
 GLIM_CONST uint kSphereBit = 0x80000000u;
-GLIM_CONST uint kSliverBit = 0x40000000u;       // thinner than kSliverHeight
+GLIM_CONST uint kSliverBit = 0x40000000u;       // thinner than kSliverHeight; with kSphereBit: a line
 GLIM_CONST uint kAlphaBit = 0x20000000u;        // neither opaque all over nor transparent all over
 GLIM_CONST uint kSingleSidedBit = 0x10000000u;  // not there for rays from behind
 GLIM_CONST uint kMaterialMask = 0x0fffffffu;
@@ -47,6 +49,7 @@ GLIM_CONST uint kMaterialMask = 0x0fffffffu;
 GLIM_CONST float kSliverHeight = 9.765625e-4f;
 GLIM_CONST uint kNoPrimitiveRef = 0xffffffffu;
 GLIM_CONST uint kNoPrimitive = 0xffffffffu;
+GLIM_CONST uint kUnsampledLight = 0xffffffffu;  // of lines that emit: in the place of light + 1
 
 // Types of materials (access/bsdf.glsl). The first three have one lobe (lib/bsdf).
 GLIM_CONST uint kLambert = 0u;

@@ -163,17 +163,6 @@ TEST(GltfAccessor, StripsAndFansFaceOneWay)
     }
 }
 
-TEST(GltfAccessor, LinesAreLeftOutAndSaidSo)
-{
-    GltfBuilder builder;
-    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0});
-    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"mode", 1}})}});
-    builder.addNode({{"mesh", builder.addTriangleMesh()}});
-    const Scene scene = load(builder);
-    EXPECT_EQ(makePrimitives(scene).triangles.size(), 1U);
-    EXPECT_EQ(findWarning(scene.warnings, MessageId::LinesLeftOut).place, "meshes[0].primitives[0]");
-}
-
 // A triangle with all attributes that a mesh can have; colours are normalised bytes without alpha, texture coordinates normalised shorts.
 json everyAttribute(GltfBuilder& builder)
 {

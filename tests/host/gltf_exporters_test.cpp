@@ -294,17 +294,13 @@ TEST(GltfExporters, WeightsJustBelowZeroCountAsZero)
     EXPECT_EQ(placeOf(loadDark(builder), MessageId::WeightsClamped), "meshes[0].primitives[0]");
 }
 
-TEST(GltfExporters, OldFilesAndLinesAreCalledSo)
+TEST(GltfExporters, OldFilesAreCalledSo)
 {
     for (const json& document : {json{{"asset", {{"version", "1.0"}}}, {"nodes", json::object()}}, json{{"asset", {{"version", 1.1}}}},
                                  json{{"accessors", {{"accessor_1", json::object()}}}, {"meshes", json::object()}}}) {
         expectRefusal<InputError>([&] { loadText(document.dump()); }, MessageId::UnknownFormat,
                                   {.file = "scene.gltf", .value = "glTF 1.0", .expected = "glTF 2.0"});
     }
-    GltfBuilder builder;
-    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0});
-    builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"mode", 3}})}});
-    expectRefused(builder, MessageId::Unsupported, {.value = "lines"});
 }
 
 TEST(GltfExporters, AUrlIsNoFile)

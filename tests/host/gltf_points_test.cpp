@@ -1,4 +1,4 @@
-// Primitives of mode POINTS: where their spheres are, how large, and of what colour.
+// Primitives of points and lines: where they are, how large, and of what colour.
 #include "host/flatten/primitives.hpp"
 #include "tests/support/gltf_builder.hpp"
 
@@ -182,6 +182,65 @@ TEST(GltfPoints, SplatsArePointsOfTheirColours)
     EXPECT_LE(glm::distance(scene.meshes[0].colors[1], glm::vec4(1, 0, 0.5, 1)), 1e-6F);
     builder.document["meshes"][0]["primitives"][0]["extensions"]["KHR_gaussian_splatting"]["colorSpace"] = "srgb_rec709_display";
     EXPECT_FLOAT_EQ(load(builder).meshes[0].colors[0].r, 0.21404114F);  // of the sRGB value 0.5
+}
+
+// Of these four corners.
+json lines(GltfBuilder& builder, int mode) { return {{"attributes", {{"POSITION", builder.addVec3(kCorners)}}}, {"mode", mode}}; }
+
+TEST(GltfLines, ArePairsStripsAndLoops)
+{
+    const std::vector<std::pair<int, std::vector<glm::uvec2>>> modes = {
+        {1, {{0, 1}, {2, 3}}}, {3, {{0, 1}, {1, 2}, {2, 3}}}, {2, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}}};
+    for (const auto& [mode, expected] : modes) {
+        GltfBuilder builder;
+        builder.addNode({{"mesh", builder.addMesh(lines(builder, mode))}, {"scale", {2, 2, 2}}, {"translation", {0, 0, 1}}});
+        const Scene scene = load(builder);
+        EXPECT_EQ(scene.meshes[0].lines, expected);
+        const std::vector<PlacedSphere> placed = makePrimitives(scene).spheres;
+        ASSERT_EQ(placed.size(), expected.size());
+        EXPECT_TRUE(placed[0].isLine());
+        EXPECT_EQ(centerOf(scene, 0), glm::dvec3(0, 0, 1));
+        EXPECT_EQ(placed[0].axis, glm::vec3(4, 0, 0));
+        EXPECT_FLOAT_EQ(placed[0].radius, static_cast<float>(2.0 * std::sqrt(162.0) / 500.0));  // of the box's diagonal
+    }
+}
+
+TEST(GltfLines, TheirRadiusIsThatOfExtrasOrOfTheOption)
+{
+    GltfBuilder builder;
+    json primitive = lines(builder, 3);
+    primitive["extras"]["radius"] = 0.5;
+    builder.addNode({{"mesh", builder.addMesh(primitive)}, {"scale", {2, 2, 2}}});
+    EXPECT_EQ(spheresOf(builder).at(0).radius, 1.0F);
+    LoadOptions options;
+    options.pointRadius = 3.0;  // which they are not
+    EXPECT_EQ(spheresOf(builder, options).at(0).radius, 1.0F);
+    options.lineRadius = 0.25;
+    EXPECT_EQ(spheresOf(builder, options).at(0).radius, 0.25F);
+}
+
+TEST(GltfLines, IndicesChooseTheirEndsAndColoursAreTheMeans)
+{
+    GltfBuilder builder;
+    json primitive = lines(builder, 1);
+    primitive["attributes"]["COLOR_0"] = builder.addVec3({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
+    primitive["indices"] = builder.addIndices({3, 0});
+    builder.addNode({{"mesh", builder.addMesh(primitive)}});
+    const Scene scene = load(builder);
+    ASSERT_EQ(scene.meshes[0].lines, (std::vector<glm::uvec2>{{3, 0}}));
+    EXPECT_EQ(computeLineColor(scene.meshes[0], 0), glm::vec4(1.0F, 0.5F, 0.5F, 1.0F));
+}
+
+TEST(GltfLines, LinesWithoutTwoEndsAreRefused)
+{
+    for (const auto& [mode, count, expected] : {std::tuple(1, 3, "a multiple of 2"), {3, 1, "at least 2"}, {2, 1, "at least 2"}}) {
+        GltfBuilder builder;
+        json primitive = lines(builder, mode);
+        primitive["indices"] = builder.addIndices(std::vector<std::uint32_t>(static_cast<std::size_t>(count), 0));
+        builder.addNode({{"mesh", builder.addMesh(primitive)}});
+        expectRefused(builder, MessageId::OutOfRange,
+                      {.place = "meshes[0].primitives[0]", .value = std::to_string(count), .expected = expected});
+    }
 }
 
 }  // namespace

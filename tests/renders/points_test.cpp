@@ -1,4 +1,4 @@
-// Points are drawn as the same spheres of the scene would be, each with its colour.
+// Points are drawn as the same spheres of the scene would be, each with its colour; lines as spheres that move along them.
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/describe_primitive.hpp"
@@ -146,6 +146,91 @@ TEST(PointsTest, AreNamedByTheirInstanceAndTheirNumber)
         }
     }
     EXPECT_EQ(met, std::vector<int>(met.size(), 1));
+}
+
+// Lines between these points, one after the other.
+Scene strip(const Material& material, const std::vector<Point>& points, bool colored)
+{
+    Scene scene = surroundings(material);
+    addCloud(scene, points, 1, colored);
+    for (std::uint32_t i = 1; i < points.size(); ++i) {
+        scene.meshes.change().back().lines.emplace_back(i - 1, i);
+    }
+    return scene;
+}
+
+std::vector<Point> straightPoints(const glm::vec3& from, const glm::vec3& to, int count, const glm::vec4& color = glm::vec4(1.0F))
+{
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) {
+        points.push_back({from + (to - from) * (static_cast<float>(i) / static_cast<float>(count - 1)), color});
+    }
+    return points;
+}
+
+// A row of spheres that overlap by all but a thousandth of their radius: the ripple between them is 1e-7 of it.
+TEST(LinesTest, AreSpheresThatMove)
+{
+    const glm::vec3 from(-1.0F, -0.5F, 0.5F), to(0.5F, 1.0F, -0.5F);
+    const RenderSettings settings = squareSettings(32, 64);
+    Scene spheres = surroundings(plastic(glm::vec3(0.7F, 0.5F, 0.3F)));
+    addCloud(spheres, straightPoints(from, to, 1000), 1, false);
+    RenderSettings other = settings;
+    other.seed = 1;
+    expectSameMean("line and spheres", renderScene(strip(plastic(glm::vec3(0.7F, 0.5F, 0.3F)), {{from, {}}, {to, {}}}, false), settings),
+                   renderScene(spheres, other));
+}
+
+TEST(LinesTest, ALineInPartsIsTheWholeLine)
+{
+    const glm::vec3 from(-1.0F, -0.5F, 0.5F), to(0.5F, 1.0F, -0.5F);
+    const Material material = plastic(glm::vec3(0.7F, 0.5F, 0.3F));
+    RenderSettings settings = squareSettings(32, 64);
+    const Film whole = renderScene(strip(material, straightPoints(from, to, 2), false), settings);
+    settings.seed = 1;
+    expectSameMean("line of parts", renderScene(strip(material, straightPoints(from, to, 9), false), settings), whole);
+}
+
+TEST(LinesTest, TheirColoursAreThoseOfTheMaterial)
+{
+    const glm::vec4 color(0.25F, 0.5F, 0.75F, 1.0F);
+    const std::vector<Point> points = straightPoints({-1, 0, 0}, {1, 0.5F, 0}, 4, color);
+    const RenderSettings settings = squareSettings(48, 4);
+    Scene plain = strip(plastic(glm::vec3(0.25F, 0.5F, 0.75F)), points, false), colored = strip(plastic(glm::vec3(1.0F)), points, true);
+    plain.spheres.clear();
+    colored.spheres.clear();
+    EXPECT_TRUE(sameBits(renderScene(colored, settings), renderScene(plain, settings)));
+}
+
+// They are found by chance alone, which is slower and not darker. So is a row of sphere lights.
+TEST(LinesTest, ThoseThatEmitShineAsSphereLightsDo)
+{
+    Material lamp = plastic(glm::vec3(0.2F));
+    lamp.emission = glm::vec3(3.0F, 2.0F, 1.0F);
+    const glm::vec3 from(-1.0F, -0.8F, 0.5F), to(0.5F, -0.5F, -0.5F);
+    Scene line = strip(lamp, {{from, {}}, {to, {}}}, false), spheres = surroundings(lamp);
+    addCloud(spheres, straightPoints(from, to, 200), 1, false);
+    EXPECT_EQ(flattened(line).lights.size(), 2U);  // the sphere and the environment
+    RenderSettings settings = squareSettings(32, 64);
+    const Film film = renderScene(line, settings);
+    settings.seed = 1;
+    expectSameMean("emitting line and spheres", film, renderScene(spheres, settings));
+}
+
+TEST(LinesTest, TheirAlphaLetsLightThrough)
+{
+    Material veil = plastic(glm::vec3(0.8F)), half = veil;
+    half.alphaMode = veil.alphaMode = AlphaMode::Blend;
+    half.alpha = 0.5F;
+    const std::vector<Point> points = straightPoints({-1, 0, 0}, {1, 0.5F, 0}, 4, glm::vec4(1.0F, 1.0F, 1.0F, 0.5F));
+    const RenderSettings settings = squareSettings(48, 4);
+    Scene byColor = strip(veil, points, true), byMaterial = strip(half, points, false), opaque = strip(veil, points, false);
+    for (Scene* scene : {&byColor, &byMaterial, &opaque}) {
+        scene->spheres.clear();
+    }
+    const Film film = renderScene(byColor, settings);
+    EXPECT_TRUE(sameBits(film, renderScene(byMaterial, settings)));
+    EXPECT_FALSE(sameBits(film, renderScene(opaque, settings)));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ bool mayEmit(const GltfFile& file, const tinygltf::Primitive& primitive)
     return std::any_of(factor.begin(), factor.end(), [](double channel) { return channel > 0.0; });
 }
 
-// Its triangles or points and its vertices, if it is drawn.
+// Its triangles, or points or lines, and its vertices, if it is drawn.
 struct PrimitiveSize {
     std::uint64_t triangles = 0, points = 0, vertices = 0;
 };
@@ -34,13 +34,19 @@ struct PrimitiveSize {
 PrimitiveSize sizeOf(const GltfFile& file, const tinygltf::Primitive& primitive)
 {
     const auto position = primitive.attributes.find("POSITION");
-    const bool isCloud = primitive.mode == TINYGLTF_MODE_POINTS;
-    if (position == primitive.attributes.end() || (primitive.mode < TINYGLTF_MODE_TRIANGLES && !isCloud)) {
+    if (position == primitive.attributes.end()) {
         return {};
     }
     const std::uint64_t vertices = file.model.accessors[static_cast<std::size_t>(position->second)].count;
     const std::uint64_t order = primitive.indices >= 0 ? file.model.accessors[static_cast<std::size_t>(primitive.indices)].count : vertices;
-    return {isCloud ? 0 : primitive.mode == TINYGLTF_MODE_TRIANGLES ? order / 3 : order, isCloud ? order : 0, vertices};
+    switch (primitive.mode) {
+    case TINYGLTF_MODE_LINE: return {0, order / 2, vertices};
+    case TINYGLTF_MODE_POINTS:
+    case TINYGLTF_MODE_LINE_LOOP:
+    case TINYGLTF_MODE_LINE_STRIP: return {0, order, vertices};
+    case TINYGLTF_MODE_TRIANGLES: return {order / 3, 0, vertices};
+    default: return {order, 0, vertices};
+    }
 }
 
 std::uint64_t countUnbacked(const GltfFile& file, int accessor)
@@ -101,7 +107,7 @@ void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
             uses.push_back({instancesOf[mesh], size.triangles, mayEmit(file, primitive)});
             vertices += instancesOf[mesh] > 0 ? size.vertices : 0;
             points += instancesOf[mesh] * size.points;
-            lights += mayEmit(file, primitive) ? instancesOf[mesh] * size.points : 0;
+            lights += mayEmit(file, primitive) && primitive.mode == TINYGLTF_MODE_POINTS ? instancesOf[mesh] * size.points : 0;
             instances += instancesOf[mesh];
         }
     }
@@ -114,7 +120,7 @@ void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
                                  vertices * kBytesPerVertex + instances * kBytesPerInstance;
     if (const std::uint64_t available = availableBytes(); needed > available) {
         refuse(file, MessageId::OutOfMemory,
-               {"the scene has ", counted(countTriangles(uses), "triangle"), " and ", counted(points, "point"), " in ",
+               {"the scene has ", counted(countTriangles(uses), "triangle"), " and ", std::to_string(points), " points and lines", " in ",
                 counted(instances, "instance"), "; ", std::to_string(stored + points), " of them have to be stored, which takes at least ",
                 part::value(std::to_string(needed >> 20U)), " MiB; expected ",
                 part::expected("at most the " + std::to_string(available >> 20U) + " MiB that the process may take")});

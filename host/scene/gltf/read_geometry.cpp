@@ -93,13 +93,18 @@ WorldSphere readSphere(const GltfFile& file, const PlacedNode& node, std::uint32
     return world;
 }
 
-bool hasLines(const GltfFile& file)
+// What a cloud without a radius of its own has: points half of the distance to their neighbours, lines a small share of their cloud's size.
+double guessRadius(const Mesh& cloud)
 {
-    const auto isLines = [](const tinygltf::Primitive& primitive) {
-        return primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES;
-    };
-    return std::ranges::any_of(file.model.meshes,
-                               [&](const tinygltf::Mesh& mesh) { return std::ranges::any_of(mesh.primitives, isLines); });
+    constexpr double kShareOfLines = 1.0 / 500.0;
+    if (cloud.lines.empty()) {
+        return 0.5 * computePointSpacing(cloud.positions);
+    }
+    Box box;
+    for (const glm::dvec3& position : cloud.positions) {
+        box.extend(position);
+    }
+    return kShareOfLines * glm::distance(box.min, box.max);
 }
 
 // The texture coordinates that the material's tangents follow, if it needs any.
@@ -250,8 +255,8 @@ void GeometryReader::readUses()
         std::vector<std::uint32_t>& ids = read_.meshesOf.emplace_back();
         for (Mesh& mesh : readMeshes(file_, use.mesh, use.pose, read_.warnings)) {
             if (mesh.isCloud) {
-                mesh.pointRadius =
-                    scene_.pointRadius || mesh.pointRadius > 0.0 ? mesh.pointRadius : 0.5 * computePointSpacing(mesh.positions);
+                const bool isGiven = (mesh.lines.empty() ? scene_.pointRadius : scene_.lineRadius).has_value();
+                mesh.pointRadius = isGiven || mesh.pointRadius > 0.0 ? mesh.pointRadius : guessRadius(mesh);
             } else if (const std::optional<std::uint32_t> uvSet = needs[mesh.material].uvSetOfTangents) {
                 giveTangents(mesh, *uvSet, read_.warnings);
             }
@@ -303,11 +308,11 @@ void GeometryReader::countShapes()
     for (const MeshInstance& instance : scene_.instances) {
         const Mesh& mesh = scene_.meshes[instance.mesh];
         triangles_ += mesh.indices.size() / 3;
-        points_ += mesh.isCloud ? mesh.positions.size() : 0;
+        points_ += mesh.isCloud ? std::max(mesh.positions.size(), mesh.lines.size()) : 0;
     }
     if (triangles_ + points_ > std::numeric_limits<std::uint32_t>::max()) {
         refuse(file_, MessageId::TooLarge,
-               {"the scene has ", part::value(std::to_string(triangles_ + points_)), " triangles and points; expected ",
+               {"the scene has ", part::value(std::to_string(triangles_ + points_)), " triangles, points and lines; expected ",
                 part::expected("at most 4294967295")});
     }
     if (triangles_ > kMaxFlatTriangles && read_.corners.empty()) {
@@ -388,7 +393,7 @@ void GeometryReader::chooseLonePointRadius(const Box& box)
 {
     constexpr double kShare = 0.01;
     const bool isAsked = std::ranges::any_of(scene_.meshes, [](const Mesh& mesh) { return mesh.isCloud && mesh.pointRadius == 0.0; });
-    if (isAsked && !scene_.pointRadius) {
+    if (isAsked) {
         const double extent = chooseExtent(box);
         scene_.lonePointRadius = kShare * (extent > 0.0 ? extent : 1.0);
     }
@@ -523,15 +528,11 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         }
         flatMeshes[instance.mesh] = isFlat(PlacedMesh(mesh, glm::dmat3(1.0), glm::dvec3(0.0)));
     }
-    if (triangles == 0 && hasLines(file)) {
-        refuse(file, MessageId::Unsupported,
-               {"the file holds ", part::value("lines"), ", which glim does not draw; expected ", part::expected("triangles or points")});
-    }
     const std::string flat = counted(triangles, "triangle");
     const MessagePart found =
         triangles == 0 ? MessagePart("") : MessagePart(MessagePart::Kind::Value, " (" + flat + " of zero area)", flat);
     refuse(file, MessageId::Empty,
-           {"the scene has no triangle, no point and no sphere to draw", found, "; expected ", part::expected("at least one")});
+           {"the scene has no triangle, point, line or sphere to draw", found, "; expected ", part::expected("at least one")});
 }
 
 }  // namespace glim

@@ -45,7 +45,7 @@ void readGeometry(const GltfFile& file, const std::vector<PlacedNode>& nodes, Sc
 void requireShapes(const GltfFile& file, const Scene& scene);
 
 // What glTF calls a primitive of a mesh is a mesh here. Each is named after the file's mesh, with a number if that has several primitives.
-// The default material's index follows the file's last one. Lines and primitives without positions are left out, each with a warning.
+// The default material's index follows the file's last one. Primitives without positions are left out, each with a warning.
 std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshPose& pose, Warnings& warnings);
 
 // EXT_mesh_gpu_instancing: how many instances of its mesh the node has, without reading them.

@@ -157,6 +157,24 @@ std::vector<glm::vec4> readSplatColors(const GltfFile& file, const tinygltf::Pri
     return colors;
 }
 
+std::vector<glm::uvec2> listLines(const GltfFile& file, const std::vector<std::uint32_t>& order, int mode, const std::string& place)
+{
+    const bool isPairs = mode == TINYGLTF_MODE_LINE;
+    if (order.size() < 2 || (isPairs && order.size() % 2 != 0)) {
+        refuse(file, MessageId::OutOfRange,
+               {part::place(place), " has ", part::value(std::to_string(order.size())), " vertices for lines; expected ",
+                part::expected(isPairs ? "a multiple of 2" : "at least 2")});
+    }
+    std::vector<glm::uvec2> lines;
+    for (std::size_t i = 0; i + 1 < order.size(); i += isPairs ? 2 : 1) {
+        lines.emplace_back(order[i], order[i + 1]);
+    }
+    if (mode == TINYGLTF_MODE_LINE_LOOP) {
+        lines.emplace_back(order.back(), order.front());
+    }
+    return lines;
+}
+
 // extras.radius, else 0.
 double readPointRadius(const tinygltf::Primitive& primitive, const std::string& place, Warnings& warnings)
 {
@@ -167,7 +185,7 @@ double readPointRadius(const tinygltf::Primitive& primitive, const std::string& 
     if (radius.IsNumber() && radius.GetNumberAsDouble() > 0.0 && std::isfinite(radius.GetNumberAsDouble())) {
         return radius.GetNumberAsDouble();
     }
-    warnings.add(MessageId::ExtrasIgnored, "radii of points that are no number above 0 are ignored", place + ".extras.radius");
+    warnings.add(MessageId::ExtrasIgnored, "radii of points or lines that are no number above 0 are ignored", place + ".extras.radius");
     return 0.0;
 }
 
@@ -180,7 +198,9 @@ Mesh readCloud(const GltfFile& file, const tinygltf::Primitive& primitive, const
     const std::size_t count = mesh.positions.size();
     mesh.colors = readAttribute<glm::vec4>(file, primitive.attributes, "COLOR_0", "vertex colours", count, place);
     mesh.pointRadius = readPointRadius(primitive, place, warnings);
-    if (primitive.indices >= 0) {
+    if (primitive.mode != TINYGLTF_MODE_POINTS) {
+        mesh.lines = listLines(file, readVertexOrder(file, primitive, count, place), primitive.mode, place);
+    } else if (primitive.indices >= 0) {
         mesh.indices = readVertexOrder(file, primitive, count, place);
     }
     if (primitive.extensions.count(kSplatting) > 0) {
@@ -219,10 +239,6 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
         warnings.add(MessageId::MeshWithoutPosition, "meshes without POSITION are left out", place);
         return std::nullopt;
     }
-    if (primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        warnings.add(MessageId::LinesLeftOut, "lines are left out", place);
-        return std::nullopt;
-    }
     const auto isEmpty = [&file](int accessor) {
         return accessor >= 0 && file.model.accessors[static_cast<std::size_t>(accessor)].count == 0;
     };
@@ -231,8 +247,8 @@ std::optional<Mesh> readPrimitive(const GltfFile& file, const tinygltf::Primitiv
         return std::nullopt;
     }
     const int material = getMaterial(file, primitive);
-    Mesh mesh = primitive.mode == TINYGLTF_MODE_POINTS ? readCloud(file, primitive, place, warnings)
-                                                       : readTriangles(file, primitive, material, place);
+    Mesh mesh = primitive.mode < TINYGLTF_MODE_TRIANGLES ? readCloud(file, primitive, place, warnings)
+                                                         : readTriangles(file, primitive, material, place);
     mesh.material = static_cast<std::uint32_t>(material < 0 ? static_cast<int>(file.model.materials.size()) : material);
     return mesh;
 }
