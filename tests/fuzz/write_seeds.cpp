@@ -96,6 +96,24 @@ GltfBuilder instanced()
     return builder;
 }
 
+// Points with indices, splats, and lines of each kind.
+GltfBuilder clouds()
+{
+    GltfBuilder builder;
+    const std::size_t positions = builder.addVec3({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}),
+                      colors = builder.addVec3(std::vector<float>(12, 0.5F));
+    const json attributes = {{"POSITION", positions}, {"COLOR_0", colors}};
+    const json splats = {{"POSITION", positions}, {"KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", colors}};
+    const auto add = [&builder](const json& primitive) { builder.addNode({{"mesh", builder.addMesh(primitive)}, {"scale", {1, -2, 3}}}); };
+    add({{"attributes", attributes}, {"mode", 0}, {"indices", builder.addIndices({3, 1, 1})}});
+    add({{"attributes", splats}, {"mode", 0}, {"extensions", {{"KHR_gaussian_splatting", {{"colorSpace", "lin_rec709_display"}}}}}});
+    for (const int mode : {1, 2, 3}) {
+        add({{"attributes", attributes}, {"mode", mode}, {"extras", {{"radius", 0.1}}}});
+    }
+    builder.document["extensionsUsed"] = {"KHR_gaussian_splatting"};
+    return builder;
+}
+
 void writeScenes(const fs::path& folder)
 {
     const std::pair<const char*, GltfBuilder> scenes[] = {
@@ -103,6 +121,7 @@ void writeScenes(const fs::path& folder)
         {"lit", lit()},
         {"instanced", instanced()},
         {"posed", posedTriangle()},
+        {"clouds", clouds()},
         {"draco", build(makeHills(3), draco({}))},
         {"draco_sequential", build(makeHills(3), draco({false, 8, true}))},
         {"meshopt", build(makeHills(3), meshopt("TRIANGLES"))},
