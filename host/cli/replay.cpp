@@ -205,7 +205,7 @@ Json surfaceJson(const ReplayReport& report, const PathVertex& vertex)
     const PrimitiveDescription met = describePrimitive(report.prepared, vertex.hit.primitiveRef);
     return {{"object", met.object},
             {"triangle", met.triangle ? Json(*met.triangle) : Json()},
-            {"point", met.point ? Json(*met.point) : Json()},
+            {met.isLine ? "line" : "point", met.point ? Json(*met.point) : Json()},
             {"material", met.material},
             {"values", materialJson(report, vertex.surface)},
             {"position", jsonOf(worldOf(report.prepared, vertex.surface.point))},
