@@ -21,10 +21,9 @@ Coverage computeCoverage(const Material& material, float alpha)
     return alpha >= 1.0F ? Coverage::Opaque : alpha > 0.0F ? Coverage::Mixed : Coverage::Transparent;
 }
 
-// Mesh colours may change alpha between vertices.
-bool hasAlpha(const Mesh& mesh)
+bool hasAlpha(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners)
 {
-    return std::ranges::any_of(mesh.colors, [](const glm::vec4& color) { return color.a != 1.0F; });
+    return !mesh.colors.empty() && std::ranges::any_of(corners, [&](std::uint32_t corner) { return mesh.colors[corner].a != 1.0F; });
 }
 
 }  // namespace
@@ -55,7 +54,7 @@ Coverage AlphaClassifier::classify(const Mesh& mesh, const std::array<std::uint3
     if (material.alphaMode == AlphaMode::Opaque) {
         return Coverage::Opaque;
     }
-    if (hasAlpha(mesh)) {
+    if (hasAlpha(mesh, corners)) {
         return Coverage::Mixed;
     }
     if (!material.textures[kSlotBaseColor]) {

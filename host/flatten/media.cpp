@@ -83,7 +83,7 @@ public:
         }
         for (const Sphere& sphere : scene_.spheres) {
             if (const std::uint32_t medium = numberOf(sphere.material)) {
-                const glm::dvec3 center = sphere.center, radius(static_cast<double>(sphere.radius));
+                const glm::dvec3 center = scene_.origin + glm::dvec3(sphere.center), radius(static_cast<double>(sphere.radius));
                 solids.push_back({medium, {center - radius, center + radius}});
             }
         }

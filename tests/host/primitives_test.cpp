@@ -171,6 +171,16 @@ TEST(PrimitivesTest, AHiddenLampIsLeftOut)
     EXPECT_EQ(primitives.warnings.size(), 2U);
 }
 
+TEST(PrimitivesTest, ATriangleHasAlphaIfOneOfItsOwnCornersHas)
+{
+    Mesh mesh = square(true);
+    mesh.colors.assign(mesh.positions.size(), glm::vec4(1.0F));
+    mesh.colors[1].a = 0.5F;  // the first triangle's alone
+    Scene scene = sceneWith({mesh}, {{"square", 0}});
+    scene.materials[0].alphaMode = AlphaMode::Blend;
+    EXPECT_EQ(makePrimitives(scene).hasAlpha, (std::vector<bool>{true, false}));
+}
+
 TEST(PrimitivesTest, ADoubleSidedLampInAWallIsTwo)
 {
     Scene scene = squaresInOnePlace();

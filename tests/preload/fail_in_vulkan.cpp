@@ -59,7 +59,8 @@ VkResult vkQueueSubmit(VkQueue queue, uint32_t count, const VkSubmitInfo* submit
 VkResult vkQueueWaitIdle(VkQueue queue)
 {
     static const auto next = original<PFN_vkQueueWaitIdle>("vkQueueWaitIdle");
-    return isLost() ? VK_ERROR_DEVICE_LOST : next(queue);
+    const VkResult ended = next(queue);  // a lost device runs nothing any more
+    return isLost() ? VK_ERROR_DEVICE_LOST : ended;
 }
 
 VkResult vkWaitForFences(VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout)

@@ -1,0 +1,32 @@
+#include "host/flatten/media.hpp"
+#include "tests/support/build_scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace glim {
+namespace {
+
+// A cube of one glass about the scene's origin, and a ball of another around `center`, which is relative to that origin.
+Scene cubeAndBall(const glm::vec3& center, const glm::dvec3& origin)
+{
+    SceneBuilder builder;
+    const std::uint32_t cube = builder.glass(1.5F), ball = builder.glass(1.3F);
+    Scene scene = builder.cube(1.0F, cube, false).sphere(center, 0.5F, ball).scene();
+    scene.origin = origin;
+    for (MeshInstance& instance : scene.instances) {
+        instance.worldFromMesh[3] = glm::dvec4(origin, 1.0);
+    }
+    return scene;
+}
+
+TEST(FindMediaTest, SolidsOfDifferentMediaThatOverlapAreTracked)
+{
+    for (const glm::dvec3& origin : {glm::dvec3(0.0), glm::dvec3(1000.0, -20.0, 3.0)}) {
+        EXPECT_TRUE(findMedia(cubeAndBall(glm::vec3(0.0F), origin)).tracked);
+        EXPECT_TRUE(findMedia(cubeAndBall(glm::vec3(1.4F, 0.0F, 0.0F), origin)).tracked);
+        EXPECT_FALSE(findMedia(cubeAndBall(glm::vec3(1.6F, 0.0F, 0.0F), origin)).tracked);
+    }
+}
+
+}  // namespace
+}  // namespace glim
