@@ -14,15 +14,21 @@ namespace {
 
 constexpr std::uint32_t kSide = 24, kSamples = 4;
 
+// Passes are short enough to be started ahead, whatever they take.
+RenderSettings shortPasses(std::uint32_t side, std::uint32_t samples, Schedule schedule)
+{
+    RenderSettings settings = squareSettings(side, samples);
+    settings.schedule = schedule;
+    settings.uncheckedSeconds = 1e9;
+    return settings;
+}
+
 class StartedPassTest : public testing::TestWithParam<Schedule> {
 protected:
     StartedPassTest()
     {
-        RenderSettings settings = squareSettings(kSide, 64);
-        settings.schedule = GetParam();
-        settings.uncheckedSeconds = 1e9;
         const Scene scene = mixedScene();
-        resources_.emplace(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+        resources_.emplace(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), shortPasses(kSide, 64, GetParam()));
         tile_ = resources_->makeTile(0, kSide * kSide);
         tracer_.emplace(*resources_);
     }
@@ -114,13 +120,11 @@ TEST_P(StartedPassTest, IsUsedWherePassesAreShortAndTimed)
     EXPECT_FALSE(tracer_->startsAhead()) << "it would always be late";
 }
 
-// With a capacity of a sixteenth of the picture, and paths whose lengths vary: some passes are late.
+// With room for a ninth of the picture's pixels, and paths whose lengths vary: some passes are late.
 TEST_P(StartedPassTest, FilmsHaveTheBitsOfPassesOneByOne)
 {
     const Scene scene = mixedScene();
-    RenderSettings settings = squareSettings(48, 96);
-    settings.schedule = GetParam();
-    settings.uncheckedSeconds = 1e9;
+    RenderSettings settings = shortPasses(48, 96, GetParam());
     settings.pathCapacity = 256;
     const FlatScene flat = flattened(scene);
     const FlatCamera camera = flattenCamera(scene.cameras.front(), 1.0F);
@@ -137,9 +141,7 @@ TEST_P(StartedPassTest, FilmsHaveTheBitsOfPassesOneByOne)
 TEST_P(StartedPassTest, IsInTheFilmOfARenderThatIsEnded)
 {
     const Scene scene = mixedScene();
-    RenderSettings settings = squareSettings(32, 1024);
-    settings.schedule = GetParam();
-    settings.uncheckedSeconds = 1e9;
+    RenderSettings settings = shortPasses(32, 1024, GetParam());
     settings.pathCapacity = 4096;
     Renderer renderer(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
     int passes = 0;
