@@ -6,6 +6,7 @@
 
 #include <cassert>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace glim {
@@ -30,37 +31,56 @@ struct BuildPart {
 
 class Builder {
 public:
-    Builder(std::span<const Box> boxes, SplitRule rule, unsigned threads, std::uint32_t leafSize)
+    Builder(std::vector<Box> boxes, SplitRule rule, unsigned threads, std::uint32_t leafSize, std::uint32_t maxPerThread = kMaxPerThread)
         : count_(static_cast<std::uint32_t>(boxes.size())),
           rule_(rule),
           threads_(threads),
           leafSize_(leafSize),
+          maxPerThread_(maxPerThread),
           references_(std::make_unique_for_overwrite<Reference[]>(count_)),
           scratch_(std::make_unique_for_overwrite<Reference[]>(count_))
     {
-        parts_.push_back({{0, 0, count_, 0, readBoxes(boxes)}, 0, {}, 0});
+        parts_.push_back({{0, 0, count_, 0, readBoxes(std::move(boxes))}, 0, {}, 0});
     }
 
     Bvh build()
     {
         splitTop();
+        return finish([&](BuildPart& part) { buildBelow(part); });
+    }
+
+    Bvh divide()
+    {
+        splitTop();
+        return finish([](BuildPart& part) {
+            const BuildTask& task = part.task;
+            part.nodes = {{task.bounds.box.box(), task.begin, task.end - task.begin}};
+            part.depth = task.depth;
+        });
+    }
+
+private:
+    template <class Fill>
+    Bvh finish(const Fill& fill)
+    {
         parallelFor(parts_.size(), threads_, [&](std::size_t i) {
             if (parts_[i].children == 0) {
-                buildBelow(parts_[i]);
+                fill(parts_[i]);
             }
         });
+        scratch_.reset();
         Bvh bvh;
-        join(bvh);
         bvh.order.resize(count_);
         for (std::uint32_t i = 0; i < count_; ++i) {
             bvh.order[i] = references_[i].primitive();
         }
+        references_.reset();
+        join(bvh);
         bvh.cost = computeCost(bvh.nodes);
         return bvh;
     }
 
-private:
-    NodeBounds readBoxes(std::span<const Box> boxes)
+    NodeBounds readBoxes(const std::vector<Box> boxes)
     {
         std::vector<NodeBounds> bounds((count_ + kMaxPerThread - 1) / kMaxPerThread);
         parallelFor(bounds.size(), threads_, [&](std::size_t chunk) {
@@ -89,7 +109,7 @@ private:
             std::vector<NodeSplit> splits(end - begin);
             parallelFor(splits.size(), threads_, [&](std::size_t i) {
                 const BuildTask& task = parts_[begin + i].task;
-                splits[i] = task.end - task.begin > kMaxPerThread ? split(task) : NodeSplit{};
+                splits[i] = task.end - task.begin > maxPerThread_ ? split(task) : NodeSplit{};
             });
             for (std::size_t i = begin; i < end; ++i) {
                 const BuildTask task = parts_[i].task;
@@ -126,16 +146,17 @@ private:
         }
     }
 
-    // Joins all parts in depth-first order.
+    // Joins all parts in depth-first order, and frees each.
     void join(Bvh& bvh)
     {
-        bvh.nodes.reserve(2 * count_);
+        bvh.nodes.reserve(std::accumulate(parts_.begin(), parts_.end(), std::size_t{2},
+                                          [](std::size_t sum, const BuildPart& part) { return sum + part.nodes.size() + 1; }));
         bvh.nodes.emplace_back();
         std::vector<std::pair<std::uint32_t, std::uint32_t>> places{{0, 0}};  // part, node
         while (!places.empty()) {
             const auto [index, node] = places.back();
             places.pop_back();
-            const BuildPart& part = parts_[index];
+            BuildPart& part = parts_[index];
             const auto first = static_cast<std::uint32_t>(bvh.nodes.size());
             if (part.children != 0) {
                 bvh.nodes[node] = {part.task.bounds.box.box(), first, 0};
@@ -155,23 +176,30 @@ private:
                 }
             }
             bvh.depth = std::max(bvh.depth, part.depth);
+            part.nodes = std::vector<BvhNode>();  // {} would keep the memory
         }
     }
 
     const std::uint32_t count_;
     const SplitRule rule_;
     const unsigned threads_;
-    const std::uint32_t leafSize_;
-    const std::unique_ptr<Reference[]> references_, scratch_;
+    const std::uint32_t leafSize_, maxPerThread_;
+    std::unique_ptr<Reference[]> references_, scratch_;
     std::vector<BuildPart> parts_;
 };
 
 }  // namespace
 
-Bvh buildBvh(std::span<const Box> boxes, SplitRule rule, unsigned threads, std::uint32_t leafSize)
+Bvh buildBvh(std::vector<Box> boxes, SplitRule rule, unsigned threads, std::uint32_t leafSize)
 {
     assert(!boxes.empty() && boxes.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
-    return Builder(boxes, rule, threads, leafSize).build();
+    return Builder(std::move(boxes), rule, threads, leafSize).build();
+}
+
+Bvh divide(std::vector<Box> boxes, SplitRule rule, unsigned threads, std::uint32_t most)
+{
+    assert(!boxes.empty() && boxes.size() <= std::numeric_limits<std::uint32_t>::max() / 2);
+    return Builder(std::move(boxes), rule, threads, 1, most).divide();
 }
 
 }  // namespace glim

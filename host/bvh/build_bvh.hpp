@@ -3,8 +3,8 @@
 
 #include "host/bvh/bvh.hpp"
 
-#include <span>
 #include <thread>
+#include <vector>
 
 namespace glim {
 
@@ -16,9 +16,12 @@ enum class SplitRule {
     Median,  // the same number of primitives on both sides
 };
 
-// Takes one box per primitive, at least one; boxes are finite with lo <= hi. The same boxes give the same tree, to the bit, on any number
-// of threads.
-Bvh buildBvh(std::span<const Box> boxes, SplitRule rule = SplitRule::Sah, unsigned threads = std::thread::hardware_concurrency(),
+// Takes one box per primitive, at least one; boxes are finite with lo <= hi. Frees them once it has read them. The same boxes give the same
+// tree, to the bit, on any number of threads.
+Bvh buildBvh(std::vector<Box> boxes, SplitRule rule = SplitRule::Sah, unsigned threads = std::thread::hardware_concurrency(),
              std::uint32_t leafSize = 2);
+
+// The upper part of such a tree: what has at most `most` primitives is not split.
+Bvh divide(std::vector<Box> boxes, SplitRule rule, unsigned threads, std::uint32_t most);
 
 }  // namespace glim

@@ -5,7 +5,10 @@
 #include "host/bvh/surface_area.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -15,14 +18,14 @@ using Roots = std::vector<std::uint32_t>;  // binary nodes
 void collect(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t node, std::uint32_t most, Roots& roots)
 {
     const Subtree& subtree = subtrees[node];
-    while (most > 1 && subtree.toLeft[most - 1] == 0) {
+    while (most > 1 && subtree.getToLeft(most) == 0) {
         --most;
     }
     if (most == 1) {
         roots.push_back(node);
         return;
     }
-    const std::uint32_t left = subtree.toLeft[most - 1];
+    const std::uint32_t left = subtree.getToLeft(most);
     collect(bvh, subtrees, bvh.nodes[node].first, left, roots);
     collect(bvh, subtrees, bvh.nodes[node].first + 1, most - left, roots);
 }
@@ -39,9 +42,10 @@ void collectEvenly(const Bvh& bvh, std::uint32_t node, int levels, Roots& roots)
 }
 
 // Whether the subtree fits into the remaining depth if each wide node covers three levels of the binary tree.
-bool fits(const Subtree& subtree, std::uint32_t depth) { return subtree.isLeaf || depth + (subtree.height + 2U) / 3 <= kMaxWideDepth; }
-
-static_assert((kMaxBvhDepth + 2) / 3 <= kMaxWideDepth);
+bool fits(const Subtree& subtree, std::uint32_t depth)
+{
+    return (subtree.isLeaf != 0 && subtree.isAlone == 0) || depth + (subtree.height + 2U) / 3 <= kMaxWideDepth;
+}
 
 // The binary nodes that become the children of `node`, which is at `depth`: the cheapest ones, unless a subtree could become too deep.
 Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t node, std::uint32_t depth)
@@ -60,14 +64,14 @@ Roots childrenOf(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint
     return roots;
 }
 
-// Returns the place of each root. Assigns greedily, the pair with the greatest gain first; ties go to the lower root, then the lower
+// Returns the place of each child. Assigns greedily, the pair with the greatest gain first; ties go to the lower child, then the lower
 // place.
-std::array<std::uint8_t, kBvhWidth> findPlaces(const Bvh& bvh, std::uint32_t node, const Roots& roots)
+std::array<std::uint8_t, kBvhWidth> findPlaces(const Box& node, std::span<const WideChild> roots)
 {
-    const glm::vec3 middle = computeCentre(bvh.nodes[node].box);
-    std::array<std::array<float, kBvhWidth>, kBvhWidth> gains{};  // [root][place]
+    const glm::vec3 middle = computeCentre(node);
+    std::array<std::array<float, kBvhWidth>, kBvhWidth> gains{};  // [child][place]
     for (std::size_t i = 0; i < roots.size(); ++i) {
-        const glm::vec3 from = computeCentre(bvh.nodes[roots[i]].box) - middle;
+        const glm::vec3 from = computeCentre(roots[i].box) - middle;
         for (std::uint32_t s = 0; s < kBvhWidth; ++s) {
             gains[i][s] = ((s & 1U) != 0 ? from.x : -from.x) + ((s & 2U) != 0 ? from.y : -from.y) + ((s & 4U) != 0 ? from.z : -from.z);
         }
@@ -97,19 +101,31 @@ struct CollapseTask {
     std::uint32_t binary, wide, depth;
 };
 
+// A node that becomes the root of an entry's tree.
+struct TreeNode {
+    std::uint32_t node, tree, depth;
+    double share;  // of the whole tree's area
+};
+
+// A part of the wide tree.
+struct WidePart {
+    WideBvh wide;
+    std::vector<TreeNode> trees;
+};
+
 // Builds wide nodes from the top down, to subtrees of a given size.
 class Collapser {
 public:
-    Collapser(const Bvh& bvh, const std::vector<Subtree>& subtrees, std::uint32_t firstInstance)
+    Collapser(const Bvh& bvh, const std::vector<Subtree>& subtrees, const Entries& entries)
         : bvh_(bvh),
           subtrees_(subtrees),
-          firstInstance_(firstInstance),
+          entries_(entries),
           rootArea_(computeHalfArea(bvh.nodes[0].box))
     {
         wide_.box = bvh.nodes[0].box;
     }
 
-    // Returns the subtrees of at most `least` primitives, which are still to be built.
+    // Returns the subtrees of at most `least` entries, which are still to be built.
     std::vector<CollapseTask> collapse(std::uint32_t binary, std::uint32_t depth, std::uint32_t least)
     {
         std::vector<CollapseTask> left;
@@ -128,64 +144,79 @@ public:
         return left;
     }
 
-    WideBvh& result() { return wide_; }
+    WidePart take() { return {std::move(wide_), std::move(trees_)}; }
 
 private:
     double shareOf(const Box& box) const { return rootArea_ > 0.0 ? computeHalfArea(box) / rootArea_ : 1.0; }
 
     void addNode(const CollapseTask& task)
     {
-        const Roots roots = childrenOf(bvh_, subtrees_, task.binary, task.depth);
-        const auto places = findPlaces(bvh_, task.binary, roots);
+        std::vector<WideChild> children;
+        for (const std::uint32_t root : childrenOf(bvh_, subtrees_, task.binary, task.depth)) {
+            const Subtree& subtree = subtrees_[root];
+            children.push_back(
+                {subtree.isLeaf != 0 ? WideChild::Kind::Leaf : WideChild::Kind::Inner, root, subtree.count, bvh_.nodes[root].box});
+        }
+        const auto places = findPlaces(bvh_.nodes[task.binary].box, children);
         WideNode node;
-        for (std::size_t i = 0; i < roots.size(); ++i) {
-            const Subtree& subtree = subtrees_[roots[i]];
-            node.children[places[i]] = {subtree.isLeaf ? WideChild::Kind::Leaf : WideChild::Kind::Inner, roots[i], subtree.count,
-                                        bvh_.nodes[roots[i]].box};
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            node.children[places[i]] = children[i];
         }
         wide_.depth = std::max(wide_.depth, task.depth);
         wide_.cost += shareOf(bvh_.nodes[task.binary].box);
         for (WideChild& child : node.children) {
             if (child.kind == WideChild::Kind::Inner) {
-                tasks_.push_back({child.first, static_cast<std::uint32_t>(wide_.nodes.size()), task.depth + 1});
-                child = {child.kind, static_cast<std::uint32_t>(wide_.nodes.size()), 0, child.box};
-                wide_.nodes.emplace_back();
-            } else if (child.kind == WideChild::Kind::Leaf && subtrees_[child.first].hasInstance) {
-                child = addInstance(child, subtrees_[child.first].first);
-                wide_.depth = std::max(wide_.depth, task.depth + 1);
+                tasks_.push_back({child.first, addNodeFor(child), task.depth + 1});
             } else if (child.kind == WideChild::Kind::Leaf) {
-                wide_.cost += shareOf(child.box) * child.count;
-                child.first = addLeaf(subtrees_[child.first]);
+                addLeaf(child, task.depth);
             }
         }
         wide_.nodes[task.wide] = node;
     }
 
-    WideChild addInstance(const WideChild& leaf, std::uint32_t entry)
+    // The child becomes an inner one.
+    std::uint32_t addNodeFor(WideChild& child)
     {
         const auto node = static_cast<std::uint32_t>(wide_.nodes.size());
-        wide_.instances.push_back({node, bvh_.order[entry] - firstInstance_, 0});
         wide_.nodes.emplace_back();
-        return {WideChild::Kind::Inner, node, 0, leaf.box};
+        child = {WideChild::Kind::Inner, node, 0, child.box};
+        return node;
     }
 
-    std::uint32_t addLeaf(const Subtree& leaf)
+    // `leaf` has the index of its binary node, and the number of entries below that.
+    void addLeaf(WideChild& leaf, std::uint32_t depth)
     {
-        const auto first = static_cast<std::uint32_t>(wide_.order.size());
-        const auto begin = bvh_.order.begin() + leaf.first;
-        wide_.order.insert(wide_.order.end(), begin, begin + leaf.count);
-        return first;
+        const auto below = std::span(bvh_.order).subspan(findFirstEntry(leaf.first), leaf.count);
+        if (entries_.isTree(below[0])) {
+            trees_.push_back({addNodeFor(leaf), below[0] - entries_.firstTree, depth + 1, shareOf(leaf.box)});
+        } else if (entries_.isInstance(below[0])) {
+            wide_.instances.push_back({addNodeFor(leaf), below[0] - entries_.firstInstance, 0});
+            wide_.depth = std::max(wide_.depth, depth + 1);
+        } else {
+            wide_.cost += shareOf(leaf.box) * leaf.count;
+            leaf.first = static_cast<std::uint32_t>(wide_.order.size());
+            std::ranges::transform(below, std::back_inserter(wide_.order), [&](std::uint32_t entry) { return entries_.getSingle(entry); });
+        }
+    }
+
+    std::uint32_t findFirstEntry(std::uint32_t node) const
+    {
+        while (bvh_.nodes[node].count == 0) {
+            node = bvh_.nodes[node].first;
+        }
+        return bvh_.nodes[node].first;
     }
 
     const Bvh& bvh_;
     const std::vector<Subtree>& subtrees_;
-    const std::uint32_t firstInstance_;
+    const Entries& entries_;
     const double rootArea_;
     WideBvh wide_;
+    std::vector<TreeNode> trees_;
     std::vector<CollapseTask> tasks_;
 };
 
-// The first node of `part` becomes node `at` of the tree.
+// The first node of `part` becomes node `at` of the tree. Depth and cost are the caller's.
 void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
 {
     const auto firstNode = static_cast<std::uint32_t>(wide.nodes.size()) - 1;
@@ -201,26 +232,44 @@ void append(WideBvh& wide, const WideBvh& part, std::uint32_t at)
         wide.instances.push_back({instance.node + firstNode, instance.instance, 0});
     }
     wide.order.insert(wide.order.end(), part.order.begin(), part.order.end());
-    wide.depth = std::max(wide.depth, part.depth);
-    wide.cost += part.cost;
 }
 
 }  // namespace
 
-WideBvh collapseBvh(const Bvh& bvh, unsigned threads, std::uint32_t firstInstance)
+WideBvh collapseBvh(Bvh bvh, const Entries& entries, unsigned threads)
 {
-    constexpr std::uint32_t kMaxPrimitivesPerThread = 8192;  // one thread builds a subtree of at most this many primitives
-    const std::vector<Subtree> subtrees = examineSubtrees(bvh, threads, firstInstance);
-    Collapser top(bvh, subtrees, firstInstance);
-    const std::vector<CollapseTask> tasks = top.collapse(0, 1, kMaxPrimitivesPerThread);
-    std::vector<Collapser> parts(tasks.size(), Collapser(bvh, subtrees, firstInstance));
-    parallelFor(tasks.size(), threads, [&](std::size_t i) { parts[i].collapse(tasks[i].binary, tasks[i].depth, 0); });
-    WideBvh wide = std::move(top.result());
-    wide.order.reserve(bvh.order.size());
-    wide.nodes.reserve(std::accumulate(parts.begin(), parts.end(), wide.nodes.size(),
-                                       [](std::size_t sum, Collapser& part) { return sum + part.result().nodes.size(); }));
+    constexpr std::uint32_t kMaxEntriesPerThread = 8192;  // one thread builds a subtree of at most this many entries
+    std::vector<Subtree> subtrees = examineSubtrees(bvh, threads, entries);
+    Collapser top(bvh, subtrees, entries);
+    const std::vector<CollapseTask> tasks = top.collapse(0, 1, kMaxEntriesPerThread);
+    std::vector<WidePart> parts(tasks.size());
+    parallelFor(tasks.size(), threads, [&](std::size_t i) {
+        Collapser part(bvh, subtrees, entries);
+        part.collapse(tasks[i].binary, tasks[i].depth, 0);
+        parts[i] = part.take();
+    });
+    auto [wide, treeNodes] = top.take();
+    wide.order.reserve(bvh.order.size() + entries.inTrees);
+    bvh = {};
+    subtrees = std::vector<Subtree>();
+    constexpr std::size_t kLeastInNode = 5;  // trees of points have seven primitives a node
+    wide.nodes.reserve(std::accumulate(parts.begin(), parts.end(), wide.nodes.size() + entries.inTrees / kLeastInNode,
+                                       [](std::size_t sum, const WidePart& part) { return sum + part.wide.nodes.size(); }));
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        append(wide, parts[i].result(), tasks[i].wide);
+        const auto [part, trees] = std::exchange(parts[i], {});
+        for (const TreeNode& tree : trees) {
+            const std::uint32_t first = static_cast<std::uint32_t>(wide.nodes.size()) - 1;
+            treeNodes.push_back({tree.node + first, tree.tree, tree.depth, tree.share});
+        }
+        append(wide, part, tasks[i].wide);
+        wide.depth = std::max(wide.depth, part.depth);
+        wide.cost += part.cost;
+    }
+    for (const TreeNode& node : treeNodes) {
+        const WideBvh tree = entries.makeTree(node.tree);
+        append(wide, tree, node.node);
+        wide.depth = std::max(wide.depth, node.depth + tree.depth - 1);
+        wide.cost += node.share * tree.cost;
     }
     return wide;
 }

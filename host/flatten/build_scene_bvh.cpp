@@ -3,6 +3,7 @@
 #include "host/bvh/collapse_bvh.hpp"
 #include "host/bvh/refit_bvh.hpp"
 #include "host/flatten/place_instances.hpp"
+#include "host/flatten/point_parts.hpp"
 #include "host/flatten/split_triangles.hpp"
 
 #include <algorithm>
@@ -17,38 +18,51 @@ namespace {
 // which has .85; the others have .96 and more, and at .96 shadow rays take 1.7 times as long (tests/bench/EXPERIMENTS.md).
 constexpr double kWorthwhile = 0.9;
 
-// Rounded outwards.
-Box computeBox(const PlacedSphere& sphere)
+Box computeBox(const Triangle& t)
 {
-    const glm::vec3 end = sphere.center + sphere.axis;
-    return roundOutwards({glm::min(sphere.center, end) - sphere.radius, glm::max(sphere.center, end) + sphere.radius});
+    return {glm::min(t.vertices[0], glm::min(t.vertices[1], t.vertices[2])),
+            glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]))};
 }
 
 std::vector<Box> boxesOf(std::span<const Triangle> triangles)
 {
     std::vector<Box> boxes;
     boxes.reserve(triangles.size());
-    for (const Triangle& t : triangles) {
-        boxes.push_back({glm::min(t.vertices[0], glm::min(t.vertices[1], t.vertices[2])),
-                         glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]))});
+    for (const Triangle& triangle : triangles) {
+        boxes.push_back(computeBox(triangle));
     }
     return boxes;
 }
 
-// `boxes`: of the triangles, then of other primitives.
-WideBvh buildTree(const std::vector<Triangle>& triangles, std::vector<Box> boxes, SplitRule rule)
+// By entry: the primitives that are in no part, then the parts.
+std::vector<Box> boxesOf(const Primitives& primitives, const PointParts& points)
 {
-    WideBvh bvh = collapseBvh(buildBvh(boxes, rule));
-    const Pieces pieces = rule == SplitRule::Sah ? splitTriangles(triangles, std::move(boxes)) : Pieces{};
+    if (points.empty()) {
+        return primitiveBoxes(primitives);
+    }
+    const std::size_t triangles = primitives.triangles.size();
+    std::vector<Box> boxes;
+    for (const std::uint32_t id : points.others()) {
+        boxes.push_back(id < triangles ? computeBox(primitives.triangles[id]) : computeBox(primitives.spheres[id - triangles]));
+    }
+    for (std::size_t part = 0; part < points.count(); ++part) {
+        boxes.push_back(points.getBox(part));
+    }
+    return boxes;
+}
+
+// `makeBoxes`: of the triangles, then of other entries. Called again where it is needed again, so that no tree is built beside them.
+template <class MakeBoxes>
+WideBvh buildTree(const std::vector<Triangle>& triangles, SplitRule rule, const MakeBoxes& makeBoxes)
+{
+    WideBvh bvh = collapseBvh(buildBvh(makeBoxes(), rule));
+    Pieces pieces = rule == SplitRule::Sah && !triangles.empty() ? splitTriangles(triangles, makeBoxes()) : Pieces{};
     if (pieces.boxes.empty()) {
         return bvh;
     }
-    WideBvh ofPieces = collapseBvh(buildBvh(pieces.boxes, rule));
+    WideBvh ofPieces = collapseBvh(buildBvh(std::move(pieces.boxes), rule), {.single = pieces.primitives});
     if (!(ofPieces.cost < kWorthwhile * bvh.cost)) {
         return bvh;
-    }
-    for (std::uint32_t& piece : ofPieces.order) {
-        piece = pieces.primitives[piece];
     }
     ofPieces.box = bvh.box;  // without the pieces' margin
     return ofPieces;
@@ -59,7 +73,7 @@ constexpr std::uint32_t kMaxDepthOfTwo = kMaxWideDepth / 2;
 
 WideBvh buildMeshTree(const SharedMesh& mesh, SplitRule rule)
 {
-    WideBvh tree = buildTree(mesh.triangles, boxesOf(mesh.triangles), rule);
+    WideBvh tree = buildTree(mesh.triangles, rule, [&] { return boxesOf(mesh.triangles); });
     return tree.depth <= kMaxDepthOfTwo ? tree : collapseBvh(buildBvh(boxesOf(mesh.triangles), SplitRule::Median));
 }
 
@@ -89,11 +103,10 @@ glm::vec3 farthestOf(std::span<const Box> boxes)
     return farthest;
 }
 
-// The boxes of primitives, then those of instances. `roots`: of the shared meshes' trees.
-std::vector<Box> boxesOfTop(const Primitives& primitives, std::span<const WideNode> roots)
+// Adds those of instances. `roots`: of the shared meshes' trees.
+std::vector<Box> withInstances(std::vector<Box> boxes, const Primitives& primitives, std::span<const WideNode> roots)
 {
-    const auto firstInstance = static_cast<std::uint32_t>(primitives.count());
-    std::vector<Box> boxes = primitiveBoxes(primitives);
+    const std::size_t firstInstance = boxes.size();
     for (const Placement& placement : primitives.placements) {
         boxes.push_back(placeBoxes(placement, childBoxes(roots[placement.sharedMesh])));
     }
@@ -106,17 +119,19 @@ std::vector<Box> boxesOfTop(const Primitives& primitives, std::span<const WideNo
     return boxes;
 }
 
-WideBvh buildTopTree(const Primitives& primitives, std::span<const WideNode> roots, SplitRule rule)
+// Over what is no triangle of a shared mesh. `roots`: of the shared meshes' trees.
+WideBvh buildTopTree(const Primitives& primitives, const PointParts& points, std::span<const WideNode> roots, SplitRule rule)
 {
-    const auto firstInstance = static_cast<std::uint32_t>(primitives.count());
-    const std::vector<Box> boxes = boxesOfTop(primitives, roots);
-    WideBvh top =
-        collapseBvh(buildBvh(boxes, rule, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(), firstInstance);
-    if (top.depth > kMaxDepthOfTwo) {
-        top = collapseBvh(buildBvh(boxes, SplitRule::Median, std::thread::hardware_concurrency(), 1), std::thread::hardware_concurrency(),
-                          firstInstance);
+    std::vector<Box> boxes = boxesOf(primitives, points);
+    Entries entries;
+    entries.firstInstance = static_cast<std::uint32_t>(boxes.size());
+    if (!points.empty()) {
+        entries.single = points.others();
+        entries.firstTree = static_cast<std::uint32_t>(points.others().size());
+        entries.makeTree = [&](std::uint32_t part) { return points.buildTree(part); };
+        entries.inTrees = points.pointCount();
     }
-    return top;
+    return collapseBvh(buildBvh(withInstances(std::move(boxes), primitives, roots), rule, std::thread::hardware_concurrency(), 1), entries);
 }
 
 bool areSame(const Triangle& a, const Triangle& b)
@@ -133,10 +148,10 @@ bool areSame(const Placement& a, const Placement& b)
 
 bool areSame(const SharedMesh& a, const SharedMesh& b);
 
-template <class T>
-bool areAllSame(const std::vector<T>& a, const std::vector<T>& b)
+template <class Range>
+bool areAllSame(const Range& a, const Range& b)
 {
-    return &a == &b || std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return areSame(x, y); });
+    return &a == &b || std::ranges::equal(a, b, [](const auto& x, const auto& y) { return areSame(x, y); });
 }
 
 bool areSame(const SharedMesh& a, const SharedMesh& b) { return areAllSame(a.triangles, b.triangles); }
@@ -204,7 +219,10 @@ WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule, const WideB
         roots.push_back(trees.back().nodes.empty() ? WideNode{} : trees.back().nodes[0]);
         depth = std::max(depth, trees.back().depth);
     }
-    WideBvh bvh = buildTopTree(primitives, roots, rule);
+    WideBvh bvh = buildTopTree(primitives, PointParts(primitives, rule), roots, rule);
+    if (bvh.depth > kMaxDepthOfTwo) {
+        bvh = buildTopTree(primitives, PointParts(primitives, SplitRule::Median), roots, SplitRule::Median);
+    }
     bvh.depth += depth;
     for (std::size_t i = 0; i < trees.size(); ++i) {
         append(bvh, trees[i], primitives.sharedMeshes[i].firstId);
@@ -217,8 +235,8 @@ WideBvh buildTwoLevels(const Primitives& primitives, SplitRule rule, const WideB
 
 bool haveSameSurfaces(const Primitives& a, const Primitives& b)
 {
-    return areAllSame(a.triangles, b.triangles) && areAllSame(a.spheres, b.spheres) && areAllSame(a.sharedMeshes, b.sharedMeshes) &&
-           areAllSame(a.placements, b.placements);
+    return areAllSame(a.triangles, b.triangles) && areAllSame(a.spheres.all(), b.spheres.all()) &&
+           areAllSame(a.sharedMeshes, b.sharedMeshes) && areAllSame(a.placements, b.placements);
 }
 
 // Whether a tree over `before` is one over the primitives once it is refitted: it is not over pieces, and only what is flattened and where
@@ -245,7 +263,8 @@ std::vector<WideNode> rootsOf(const WideBvh& bvh)
 WideBvh refitOrBuild(WideBvh previous, const Primitives& before, const Primitives& primitives, SplitRule rule)
 {
     if (canRefit(previous, before, primitives)) {
-        if (auto refitted = refitBvh(previous, boxesOfTop(primitives, rootsOf(previous)), 1.0 / kWorthwhile)) {
+        if (auto refitted =
+                refitBvh(previous, withInstances(primitiveBoxes(primitives), primitives, rootsOf(previous)), 1.0 / kWorthwhile)) {
             return *std::move(refitted);
         }
     }
@@ -257,7 +276,8 @@ WideBvh refitOrBuild(WideBvh previous, const Primitives& before, const Primitive
 std::vector<Box> primitiveBoxes(const Primitives& primitives)
 {
     std::vector<Box> boxes = boxesOf(primitives.triangles);
-    for (const PlacedSphere& sphere : primitives.spheres) {
+    boxes.reserve(primitives.count());
+    for (const PlacedSphere& sphere : primitives.spheres.all()) {
         boxes.push_back(computeBox(sphere));
     }
     return boxes;
@@ -268,8 +288,13 @@ WideBvh buildSceneBvh(const Primitives& primitives, SplitRule rule)
     if (primitives.count() == 0 && primitives.placements.empty()) {
         return makeEmptyTree();  // of a scene that is transparent all over
     }
-    return primitives.placements.empty() ? buildTree(primitives.triangles, primitiveBoxes(primitives), rule)
-                                         : buildTwoLevels(primitives, rule, {}, {});
+    if (!primitives.placements.empty()) {
+        return buildTwoLevels(primitives, rule, {}, {});
+    }
+    if (const PointParts points(primitives, rule); !points.empty()) {
+        return buildTopTree(primitives, points, {}, rule);
+    }
+    return buildTree(primitives.triangles, rule, [&] { return primitiveBoxes(primitives); });
 }
 
 WideBvh updateSceneBvh(WideBvh previous, const Primitives& before, const Primitives& primitives, SplitRule rule)

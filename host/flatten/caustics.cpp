@@ -170,7 +170,7 @@ std::vector<BoundingSphere> findTargets(const SpecularMaterials& specular, const
             targets.push_back(placed[i]);
         }
     }
-    for (const PlacedSphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres.all()) {
         if (specular[sphere.material]) {
             targets.push_back(computeBoundingSphere(sphere));
         }
@@ -329,7 +329,7 @@ double roomArea(const Primitives& primitives, std::span<const BoundingSphere> pl
             high = glm::max(high, glm::dvec3(v));
         }
     }
-    for (const PlacedSphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres.all()) {
         const glm::vec3 end = sphere.center + sphere.axis;
         low = glm::min(low, glm::dvec3(glm::min(sphere.center, end) - sphere.radius));
         high = glm::max(high, glm::dvec3(glm::max(sphere.center, end) + sphere.radius));
@@ -368,7 +368,7 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     if (!primitives.triangles.empty()) {
         all.push_back(boundingSphere(primitives.triangles));
     }
-    for (const PlacedSphere& sphere : primitives.spheres) {
+    for (const PlacedSphere& sphere : primitives.spheres.all()) {
         all.push_back(computeBoundingSphere(sphere));
     }
     const BoundingSphere whole = boundingSphere(std::span<const BoundingSphere>(all));

@@ -92,19 +92,6 @@ private:
 
 bool hasColors(const Mesh& cloud) { return cloud.isCloud && !cloud.colors.empty(); }
 
-// White where the sphere has none.
-glm::vec4 colorOf(const Scene& scene, const PlacedSphere& sphere)
-{
-    if (sphere.point == kNoIndex) {
-        return glm::vec4(1.0F);
-    }
-    const Mesh& mesh = scene.meshes[scene.instances[sphere.object].mesh];
-    if (!mesh.lines.empty()) {
-        return computeLineColor(mesh, sphere.point);
-    }
-    return mesh.colors.empty() ? glm::vec4(1.0F) : glm::clamp(mesh.colors[sphere.point], 0.0F, 1.0F);
-}
-
 void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives& primitives, const WideBvh& bvh)
 {
     const std::vector<std::uint32_t> words = materialWordsOf(scene);
@@ -125,8 +112,8 @@ void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives
         if (id < materials.size()) {
             refs.push(primitives.triangles[id], id, materials[id], alpha);
         } else {
-            const PlacedSphere& sphere = primitives.spheres[id - materials.size()];
-            refs.push(sphere, id, words[sphere.material], alpha, colored ? colorOf(scene, sphere) : glm::vec4(0.0F));
+            const PlacedSphere sphere = primitives.spheres[id - materials.size()];
+            refs.push(sphere, id, words[sphere.material], alpha, colored ? primitives.spheres.computeColor(sphere) : glm::vec4(0.0F));
             if (sphere.isLine() && scene.materials[sphere.material].emission != glm::vec3(0.0F)) {
                 refs.markUnsampled();
             }
@@ -256,8 +243,6 @@ void pushSurfaces(FlatScene& flat, const Scene& scene, const Primitives& primiti
     flat.primitiveRefs = std::move(refs.texels);
     flat.surfaceFeatures |=
         refs.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.placements.empty() ? 0U : kFeatureInstances);
-    flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
-    flat.firstInstanceRef = static_cast<std::uint32_t>(bvh.order.size());
 }
 
 void keepSurfaces(FlatScene& flat, const FlatScene& previous)
@@ -319,9 +304,10 @@ void placeLights(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     }
 }
 
-}  // namespace
-
-FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous, Same same)
+// Calls `nodesAreDone` when the tree's nodes are not needed any more.
+template <class Done>
+FlatScene flatten(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous, Same same,
+                  Done nodesAreDone)
 {
     FlatScene flat;
     flat.images = previous.images;
@@ -329,15 +315,19 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
         flat.environmentMap = previous.environmentMap;
     }
     flat.stackLevels = stackLevelsOf(bvh);
-    if (same == Same::Nothing) {
-        pushSurfaces(flat, scene, primitives, bvh);
-    } else {
+    flat.triangleCount = static_cast<std::uint32_t>(primitives.triangles.size());
+    flat.firstInstanceRef = static_cast<std::uint32_t>(bvh.order.size());
+    if (same != Same::Nothing) {
         keepSurfaces(flat, previous);
     }
     if (same == Same::Everything) {
         keepPlaces(flat, previous);
     } else {
         placeSurfaces(flat, primitives, bvh);
+    }
+    nodesAreDone();
+    if (same == Same::Nothing) {
+        pushSurfaces(flat, scene, primitives, bvh);
     }
     flat.features = flat.surfaceFeatures | (areLightsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
     flattenMaterials(flat, scene, findColored(scene));
@@ -352,6 +342,18 @@ FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const W
     addCaustics(flat, scene, primitives);
     flat.features |= mayLightsBeInMedia(flat) ? kFeatureLightsInMedia : 0U;
     return flat;
+}
+
+}  // namespace
+
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous, Same same)
+{
+    return flatten(scene, primitives, bvh, previous, same, [] {});
+}
+
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, WideBvh&& bvh)
+{
+    return flatten(scene, primitives, bvh, {}, Same::Nothing, [&bvh] { bvh.nodes = std::vector<WideNode>(); });
 }
 
 FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& lens)

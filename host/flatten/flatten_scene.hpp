@@ -11,6 +11,8 @@ namespace glim {
 // maps, and of the primitives what is the `same`.
 FlatScene flattenScene(const Scene& scene, const Primitives& primitives, const WideBvh& bvh, const FlatScene& previous = {},
                        Same same = Same::Nothing);
+// Frees the tree's nodes before what takes more is made.
+FlatScene flattenScene(const Scene& scene, const Primitives& primitives, WideBvh&& bvh);
 
 // A thin lens, in metres. Radius 0 is a pinhole; its focal distance does not matter.
 struct Lens {

@@ -95,8 +95,8 @@ void findLargeTriangles(FlatScene& flat, const Primitives& primitives)
         }
         largest = std::max(largest, scale * largestInMesh[placement.sharedMesh]);
     }
-    for (const PlacedSphere& sphere : primitives.spheres) {
-        sizes.push_back(2.0 * static_cast<double>(sphere.radius));
+    for (std::size_t i = 0; i < primitives.spheres.size() && largest > 0.0; ++i) {
+        sizes.push_back(2.0 * static_cast<double>(primitives.spheres[i].radius));
     }
     flat.largest = largestOf(primitives.triangles, std::move(extents));
     const bool isLarge = !sizes.empty() && largest > kMaxToPrimitive * fineSize(std::move(sizes));

@@ -188,41 +188,43 @@ Copies findHidden(const Scene& scene, const Primitives& primitives)
 // a sphere with alpha. Spheres that they hide are left out. Returns how many.
 std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
 {
-    if (std::ranges::none_of(primitives.spheres, [&](const PlacedSphere& sphere) { return emits(scene.materials[sphere.material]); })) {
+    if (std::ranges::none_of(primitives.spheres.all(),
+                             [&](const PlacedSphere& sphere) { return emits(scene.materials[sphere.material]); })) {
         return 0;
     }
     using Place = std::array<float, 7>;
-    const std::vector<PlacedSphere> spheres = std::exchange(primitives.spheres, {});
+    const PlacedSpheres& spheres = primitives.spheres;
     const std::vector<bool> hasAlpha(primitives.hasAlpha);
     const std::size_t triangles = primitives.triangles.size();
     const auto placeOf = [&](std::size_t i) {
-        const auto& [center, axis] = std::tie(spheres[i].center, spheres[i].axis);
-        return Place{center.x, center.y, center.z, spheres[i].radius, axis.x, axis.y, axis.z};
+        const PlacedSphere sphere = spheres[i];
+        const auto& [center, axis] = std::tie(sphere.center, sphere.axis);
+        return Place{center.x, center.y, center.z, sphere.radius, axis.x, axis.y, axis.z};
     };
     const auto isClear = [&](std::size_t i) { return !hasAlpha.empty() && hasAlpha[triangles + i]; };
     const auto isLight = [&](std::size_t i) { return emits(scene.materials[spheres[i].material]) && !isClear(i); };
     const auto isTwoSided = [&](std::size_t i) { return isSeenFromBehind(scene.materials[spheres[i].material]); };
-    std::vector<std::size_t> order(spheres.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::map<Place, std::size_t> firstLights;
-    for (const std::size_t i : order) {
+    std::vector<std::uint32_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::map<Place, std::uint32_t> firstLights;
+    for (const std::uint32_t i : order) {
         if (isLight(i)) {
             firstLights.try_emplace(placeOf(i), i);
         }
     }
-    std::map<Place, std::vector<std::size_t>> groups;
-    for (const std::size_t i : order) {
+    std::map<Place, std::vector<std::uint32_t>> groups;
+    for (const std::uint32_t i : order) {
         if (const auto light = firstLights.find(placeOf(i)); light != firstLights.end() && !(isClear(i) && i < light->second)) {
             groups[light->first].push_back(i);
         }
     }
-    constexpr auto kLeftOut = std::numeric_limits<std::size_t>::max();
+    constexpr auto kLeftOut = std::numeric_limits<std::uint32_t>::max();
     for (const auto& [place, slots] : groups) {
-        std::vector<std::size_t> group = slots, kept;
+        std::vector<std::uint32_t> group = slots, kept;
         std::ranges::stable_partition(group, isLight);
-        std::ranges::copy_if(group, std::back_inserter(kept), [&](std::size_t i) {
+        std::ranges::copy_if(group, std::back_inserter(kept), [&](std::uint32_t i) {
             return std::ranges::none_of(kept,
-                                        [&](std::size_t before) { return isLight(before) && (isTwoSided(before) || !isTwoSided(i)); });
+                                        [&](std::uint32_t before) { return isLight(before) && (isTwoSided(before) || !isTwoSided(i)); });
         });
         kept.resize(slots.size(), kLeftOut);
         for (std::size_t k = 0; k < slots.size(); ++k) {
@@ -231,13 +233,14 @@ std::size_t placeSpheres(const Scene& scene, Primitives& primitives)
     }
     std::erase(order, kLeftOut);
     primitives.hasAlpha.resize(hasAlpha.empty() ? 0 : triangles);
-    for (const std::size_t i : order) {
-        primitives.spheres.push_back(spheres[i]);
+    for (const std::uint32_t i : order) {
         if (!hasAlpha.empty()) {
             primitives.hasAlpha.push_back(isClear(i));
         }
     }
-    return spheres.size() - order.size();
+    const std::size_t leftOut = spheres.size() - order.size();
+    primitives.spheres.select(std::move(order));
+    return leftOut;
 }
 
 // A light and another triangle that overlap in one plane.

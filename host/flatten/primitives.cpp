@@ -103,37 +103,14 @@ private:
 
     void addSpheres()
     {
-        auto object = static_cast<std::uint32_t>(scene_.instances.size());
-        for (const Sphere& sphere : scene_.spheres) {
-            addPrimitive(alpha_.classify(sphere.material), [&] {
-                made_.spheres.push_back({sphere.center, sphere.radius, sphere.material, object, kNoIndex});
-            });
-            ++object;
+        made_.spheres = PlacedSpheres(scene_);
+        std::vector<std::uint32_t> kept;
+        for (std::uint32_t i = 0; i < made_.spheres.size(); ++i) {
+            const PlacedSphere sphere = made_.spheres[i];
+            addPrimitive(alpha_.classify(sphere.material, made_.spheres.computeColor(sphere).a), [&] { kept.push_back(i); });
         }
-        for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-            if (scene_.meshes[scene_.instances[i].mesh].isCloud) {
-                addPoints(i);
-            }
-        }
-    }
-
-    void addPoints(std::uint32_t instance)
-    {
-        const Mesh& mesh = scene_.meshes[scene_.instances[instance].mesh];
-        const PlacedMesh placed(scene_, scene_.instances[instance]);
-        const float radius = computePointRadius(scene_, scene_.instances[instance]);
-        made_.spheres.reserve(made_.spheres.size() + (mesh.lines.empty() ? mesh.positions.size() : mesh.lines.size()));
-        for (std::uint32_t i = 0; i < mesh.lines.size(); ++i) {
-            const glm::vec3 end = placed.positions()[mesh.lines[i].x];
-            addPrimitive(alpha_.classify(mesh.material, computeLineColor(mesh, i).a), [&] {
-                made_.spheres.push_back({end, radius, mesh.material, instance, i, placed.positions()[mesh.lines[i].y] - end});
-            });
-        }
-        for (std::uint32_t i = 0; mesh.lines.empty() && i < mesh.positions.size(); ++i) {
-            const float alpha = mesh.colors.empty() ? 1.0F : std::clamp(mesh.colors[i].a, 0.0F, 1.0F);
-            addPrimitive(alpha_.classify(mesh.material, alpha), [&] {
-                made_.spheres.push_back({placed.positions()[i], radius, mesh.material, instance, i});
-            });
+        if (kept.size() < made_.spheres.size()) {
+            made_.spheres.select(std::move(kept));
         }
     }
 
@@ -190,7 +167,7 @@ private:
         shared.mesh = id;
         shared.center = centerOf(mesh);
         const std::size_t triangles = made_.triangles.size(), indices = made_.vertexIndices.size();
-        addTriangles(mesh, PlacedMesh(mesh, glm::dmat3(1.0), -shared.center), glm::dmat3(1.0));
+        addTriangles(mesh, PlacedMesh(mesh, Placing(glm::dmat3(1.0), -shared.center)), glm::dmat3(1.0));
         const auto takeFrom = [](auto& values, std::size_t first, auto& taken) {
             const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
             taken.assign(begin, values.end());
@@ -340,15 +317,6 @@ bool areSameSurface(const Material& a, const Material& b)
 }
 
 }  // namespace
-
-glm::vec4 computeLineColor(const Mesh& mesh, std::uint32_t line)
-{
-    if (mesh.colors.empty()) {
-        return glm::vec4(1.0F);
-    }
-    const glm::uvec2 ends = mesh.lines[line];
-    return 0.5F * (glm::clamp(mesh.colors[ends.x], 0.0F, 1.0F) + glm::clamp(mesh.colors[ends.y], 0.0F, 1.0F));
-}
 
 Same compareSurfaces(const Scene& before, const Primitives& primitives, const Scene& scene)
 {

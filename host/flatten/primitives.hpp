@@ -1,7 +1,7 @@
 // The primitives that the BVH holds and rays hit.
 #pragma once
 
-#include "host/scene/placed_mesh.hpp"
+#include "host/flatten/placed_spheres.hpp"
 #include "host/scene/share_meshes.hpp"
 
 namespace glim {
@@ -24,24 +24,11 @@ struct Placement {
     glm::dvec3 translation{0.0};
 };
 
-// A sphere of the scene, or a point or a line of a cloud. A line is a sphere that moves along `axis`.
-struct PlacedSphere {
-    glm::vec3 center{0.0F};
-    float radius = 1.0F;
-    std::uint32_t material = 0;
-    std::uint32_t object = 0;        // among the scene's instances and, behind these, its spheres
-    std::uint32_t point = kNoIndex;  // of the instance's mesh; or its line
-    glm::vec3 axis{0.0F};
-
-    // What is shorter has no direction in float32.
-    bool isLine() const { return glm::dot(axis, axis) > 1e-30F; }
-};
-
 // The triangles of all instances that share no mesh, one instance after the other, then the scene's spheres, then the points or lines of
 // clouds, again one instance after the other. A primitive's id counts through all.
 struct Primitives {
     std::vector<Triangle> triangles;
-    std::vector<PlacedSphere> spheres;
+    PlacedSpheres spheres;
     std::vector<std::uint32_t> firstTriangles;  // by instance, then the number of all triangles
     std::vector<SharedMesh> sharedMeshes;
     std::vector<Placement> placements;
@@ -62,9 +49,6 @@ struct Primitives {
     std::uint64_t computeTriangleCount() const;  // those of shared meshes once for each instance
     std::uint32_t findInstance(std::uint32_t triangle) const;
 };
-
-// The mean of its ends' colours; white without any.
-glm::vec4 computeLineColor(const Mesh& mesh, std::uint32_t line);
 
 // Meshes are shared as scene/share_meshes.hpp says. Triangles without area and primitives that are transparent all over are dropped;
 // normals that are zero or not finite are replaced by the face normal; lights in the plane of another surface are lifted (lift_lights.hpp).

@@ -18,17 +18,16 @@ glm::dvec3 faceNormal(const Triangle& triangle)
 }
 
 PlacedMesh::PlacedMesh(const Scene& scene, const MeshInstance& instance)
-    // Moved close to zero first, so that far from the world's origin nothing is rounded away.
-    : PlacedMesh(scene.meshes[instance.mesh], glm::dmat3(instance.worldFromMesh), glm::dvec3(instance.worldFromMesh[3]) - scene.origin)
+    : PlacedMesh(scene.meshes[instance.mesh], Placing(scene, instance))
 {}
 
-PlacedMesh::PlacedMesh(const Mesh& mesh, const glm::dmat3& linear, const glm::dvec3& translation)
+PlacedMesh::PlacedMesh(const Mesh& mesh, const Placing& place)
     : mesh_(&mesh),
-      second_(glm::determinant(linear) < 0.0 ? 2 : 1)
+      second_(glm::determinant(place.linear) < 0.0 ? 2 : 1)
 {
     positions_.reserve(mesh_->positions.size());
     for (const glm::dvec3& position : mesh_->positions) {
-        positions_.emplace_back(linear * position + translation);  // the one place where vertices become float32
+        positions_.push_back(place(position));
     }
 }
 

@@ -16,11 +16,26 @@ struct Triangle {
 // Not normalised: its length is twice the area.
 glm::dvec3 faceNormal(const Triangle& triangle);
 
+// Takes positions of a mesh to where an instance has them: the one place where vertices become float32.
+struct Placing {
+    glm::dmat3 linear;
+    glm::dvec3 translation;
+
+    Placing(const glm::dmat3& by, const glm::dvec3& then)
+        : linear(by),
+          translation(then)
+    {}
+    Placing(const Scene& scene, const MeshInstance& instance)
+        // Moved close to zero first, so that far from the world's origin nothing is rounded away.
+        : Placing(glm::dmat3(instance.worldFromMesh), glm::dvec3(instance.worldFromMesh[3]) - scene.origin)
+    {}
+    glm::vec3 operator()(const glm::dvec3& position) const { return glm::vec3(linear * position + translation); }
+};
+
 class PlacedMesh {
 public:
     PlacedMesh(const Scene& scene, const MeshInstance& instance);
-    // Places each position at linear * position + translation.
-    PlacedMesh(const Mesh& mesh, const glm::dmat3& linear, const glm::dvec3& translation);
+    PlacedMesh(const Mesh& mesh, const Placing& place);
 
     std::size_t triangleCount() const { return mesh_->indices.size() / 3; }
     // Indices of the mesh's vertices. If the instance mirrors, two are swapped, so that the front stays the front.

@@ -58,14 +58,14 @@ TEST(BvhThreads, AnyNumberGivesTheSameTrees)
         const std::vector<Box> boxes = primitiveBoxes(makeTestPrimitives(mesh));
         for (const SplitRule rule : {SplitRule::Sah, SplitRule::Mean, SplitRule::Median}) {
             const Bvh alone = buildBvh(boxes, rule, 1);
-            const WideBvh wideAlone = collapseBvh(alone, 1);
+            const WideBvh wideAlone = collapseBvh(alone, {}, 1);
             for (const unsigned threads : {0U, 2U, 3U, 8U}) {
                 const Bvh bvh = buildBvh(boxes, rule, threads);
                 EXPECT_EQ(bvh.order, alone.order);
                 ASSERT_EQ(bvh.nodes.size(), alone.nodes.size());
                 EXPECT_EQ(std::memcmp(bvh.nodes.data(), alone.nodes.data(), bvh.nodes.size() * sizeof(BvhNode)), 0);
                 EXPECT_EQ(std::pair(bvh.depth, bvh.cost), std::pair(alone.depth, alone.cost));
-                const WideBvh wide = collapseBvh(bvh, threads);
+                const WideBvh wide = collapseBvh(bvh, {}, threads);
                 EXPECT_EQ(wide.order, wideAlone.order);
                 EXPECT_TRUE(std::ranges::equal(wide.nodes, wideAlone.nodes, areEqual));
                 EXPECT_EQ(std::pair(wide.depth, wide.cost), std::pair(wideAlone.depth, wideAlone.cost));

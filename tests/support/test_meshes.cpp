@@ -192,9 +192,11 @@ Primitives makeTestPrimitives(const Triangles& triangles, const std::vector<Sphe
 {
     Primitives primitives;
     primitives.triangles = triangles;
+    std::vector<PlacedSphere> placed;
     for (const Sphere& sphere : spheres) {
-        primitives.spheres.push_back({sphere.center, sphere.radius, sphere.material});
+        placed.push_back({sphere.center, sphere.radius, sphere.material});
     }
+    primitives.spheres = PlacedSpheres(std::move(placed));
     primitives.firstTriangles = {0, static_cast<std::uint32_t>(triangles.size())};
     return primitives;
 }

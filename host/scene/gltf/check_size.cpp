@@ -11,7 +11,7 @@ namespace {
 
 // What they take at least while the tree is built, measured with flat triangles and points without any attribute (tests/bench/README.md).
 // A light is a point that emits.
-constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400, kBytesPerPoint = 200, kBytesPerLight = 200;
+constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400, kBytesPerPoint = 90, kBytesPerLight = 200;
 
 // Elements of accessors without a bufferView cost a file nothing, and any number of primitives may use the same ones. So many are never too
 // many; beyond, files that leave out zeros, as of morph targets, have vertices that are there. An instance counts as many vertices.

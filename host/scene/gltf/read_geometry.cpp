@@ -526,7 +526,7 @@ void requireShapes(const GltfFile& file, const Scene& scene)
         if (!isFlat(PlacedMesh(scene, instance))) {
             return;
         }
-        flatMeshes[instance.mesh] = isFlat(PlacedMesh(mesh, glm::dmat3(1.0), glm::dvec3(0.0)));
+        flatMeshes[instance.mesh] = isFlat(PlacedMesh(mesh, Placing(glm::dmat3(1.0), glm::dvec3(0.0))));
     }
     const std::string flat = counted(triangles, "triangle");
     const MessagePart found =
