@@ -2,6 +2,9 @@
 
 #include "host/message.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -62,6 +65,13 @@ std::string memorySentence()
 {
     return "there is not enough memory; the process may take " + std::to_string(availableBytes() >> 20U) + " MiB" +
            (addressLimit() ? " (ulimit -v)" : "");
+}
+
+void returnFreedMemory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 MemoryGuard::MemoryGuard(const std::filesystem::path& file)

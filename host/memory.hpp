@@ -23,6 +23,9 @@ std::uint64_t availableBytes();
 // "there is not enough memory; the process may take N MiB", and "(ulimit -v)" if that is a limit
 std::string memorySentence();
 
+// Gives what was freed, and is in small pieces, back to the operating system.
+void returnFreedMemory();
+
 // While it lives, a destructor that finds no memory, from where no exception can leave, ends the program as an InputError would: a sentence
 // that names `file`, and exit code 1. nlohmann-json has such destructors.
 class MemoryGuard {

@@ -22,7 +22,7 @@ void addRender(CommandLine& line)
             runReplay(*options);
             return ExitCode::Done;
         }
-        return RenderSession(std::cout).render(*options);
+        return RenderSession(std::cout, SceneUse::Once).render(*options);
     });
 }
 

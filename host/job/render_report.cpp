@@ -52,12 +52,12 @@ Json bvhOf(const RenderReport& report)
         return nullptr;
     }
     constexpr const char* kRules[] = {"sah", "mean", "median"};
-    const WideBvh& bvh = report.prepared.bvh;
-    return {{"split", kRules[static_cast<int>(report.prepared.split)]},
-            {"nodes", bvh.nodes.size()},
-            {"records", bvh.order.size()},
-            {"depth", bvh.depth},
-            {"cost", bvh.cost}};
+    const PreparedScene& prepared = report.prepared;
+    return {{"split", kRules[static_cast<int>(prepared.split)]},
+            {"nodes", prepared.flat.nodes.size() / kNodeTexels},
+            {"records", prepared.flat.primitiveRefs.size() / kPrimitiveRefTexels},
+            {"depth", prepared.bvh.depth},
+            {"cost", prepared.bvh.cost}};
 }
 
 Json biasOf(const RenderReport& report)

@@ -162,9 +162,9 @@ bool isWhole(const StoredFilm& stored, const RenderJob& options)
 // Renders one picture after another.
 class SequenceRenderer {
 public:
-    SequenceRenderer(const RenderJob& options, std::ostream& reports)
+    SequenceRenderer(const RenderJob& options, std::ostream& reports, SceneUse use)
         : reports_(reports),
-          session_(options)
+          session_(options, use)
     {}
 
     bool serves(const RenderJob& options) const { return session_.serves(options); }
@@ -390,8 +390,9 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     return finish(watch_->signal(), "what was finished is in " + options.mainFile().string());
 }
 
-RenderSession::RenderSession(std::ostream& reports)
-    : reports_(reports)
+RenderSession::RenderSession(std::ostream& reports, SceneUse use)
+    : reports_(reports),
+      use_(use)
 {}
 RenderSession::~RenderSession() = default;
 
@@ -404,8 +405,9 @@ ExitCode RenderSession::render(const RenderJob& options)
     }
     std::unique_ptr<SequenceRenderer> renderer = std::move(renderer_);  // none stays if anything is thrown
     if (!renderer || !renderer->serves(options)) {
-        renderer.reset();  // so that no two scenes are on the device
-        renderer = std::make_unique<SequenceRenderer>(options, reports_);
+        renderer.reset();                                                                  // so that no two scenes are on the device
+        const bool isOnePicture = !isSequence(options.sequence, options) && !options.ids;  // ids need the primitives afterwards
+        renderer = std::make_unique<SequenceRenderer>(options, reports_, isOnePicture ? use_ : SceneUse::Again);
     }
     const ExitCode code = renderer->renderAll(options, watch);
     renderer_ = std::move(renderer);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/job/render_job.hpp"
+#include "host/render/prepare_scene.hpp"
 
 #include <iosfwd>
 #include <memory>
@@ -12,8 +13,8 @@ class SequenceRenderer;
 
 class RenderSession {
 public:
-    // What it has done goes to `reports`, a line for each film.
-    explicit RenderSession(std::ostream& reports);
+    // What it has done goes to `reports`, a line for each film. Used once, it takes less memory.
+    explicit RenderSession(std::ostream& reports, SceneUse use = SceneUse::Again);
     ~RenderSession();
 
     // Writes all files of all pictures, and reports on each. In a sequence, a film that is there, whole and of the same scene and settings
@@ -23,6 +24,7 @@ public:
 
 private:
     std::ostream& reports_;
+    const SceneUse use_;
     std::unique_ptr<SequenceRenderer> renderer_;
 };
 

@@ -1,5 +1,7 @@
 #include "host/job/scene_session.hpp"
 
+#include "host/memory.hpp"
+
 #include <algorithm>
 
 namespace glim {
@@ -27,13 +29,15 @@ RenderSettings lastingSettings(RenderSettings settings)
 
 }  // namespace
 
-SceneSession::SceneSession(const RenderJob& options)
+SceneSession::SceneSession(const RenderJob& options, SceneUse use)
     : options_(options),
+      use_(use),
       device_(instance_, options.device),
       file_(options.scene, loadOptionsFor(options)),
       time_(firstTime(options.sequence, options))
 {
-    updateScene(prepared_, file_, time_, options.split);
+    updateScene(
+        prepared_, file_, time_, options.split, [](const std::string&) {}, use);
     stamps_ = readStamps(prepared_.scene.files);
 }
 
@@ -66,7 +70,7 @@ bool SceneSession::serves(const RenderJob& options) const
 void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> time)
 {
     const bool isEdited = edits != options_.edits;
-    const bool isLost = prepared_.bvh.nodes.empty();  // to a lack of memory
+    const bool isLost = use_ == SceneUse::Again && prepared_.bvh.nodes.empty();  // to a lack of memory
     if (!isEdited && time == time_ && !isLost) {
         return;
     }
@@ -82,6 +86,12 @@ void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> ti
 
 Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
 {
+    if (use_ == SceneUse::Once) {  // the device gets the flat scene
+        prepared_.scene.meshes = {};
+        prepared_.primitives = {};
+        prepared_.bvh = {.depth = prepared_.bvh.depth, .cost = prepared_.bvh.cost};
+        returnFreedMemory();
+    }
     if (!renderer_ || renderer_->settings().rows != settings.rows) {
         renderer_.reset();  // so that no two are on the device
         renderer_.emplace(device_, prepared_.flat, camera, settings);

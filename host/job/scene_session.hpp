@@ -13,7 +13,8 @@ namespace glim {
 class SceneSession {
 public:
     // Reads the scene at the time of the first picture that the options ask for. Throws InputError, or DeviceError without a usable device.
-    explicit SceneSession(const RenderJob& options);
+    // Used once, it renders one picture of that time with these edits, and its primitives and meshes are gone once that begins.
+    explicit SceneSession(const RenderJob& options, SceneUse use = SceneUse::Again);
 
     // Whether it can render what these options ask for: they differ from its own in nothing but samples, seed, size, rows, camera, time,
     // edits and outputs, and no file of the scene has changed.
@@ -36,6 +37,7 @@ private:
     static std::vector<Stamp> readStamps(const std::vector<std::filesystem::path>& files);
 
     RenderJob options_;
+    const SceneUse use_;
     VulkanInstance instance_;
     Device device_;
     SceneFile file_;

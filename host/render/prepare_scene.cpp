@@ -59,7 +59,7 @@ PreparedScene within(const std::filesystem::path& file, const std::function<Prep
 }
 
 // `start`: when loading began.
-PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, PreparedScene previous, const Stage& stage)
+PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, PreparedScene previous, const Stage& stage, SceneUse use)
 {
     PreparedScene prepared;
     prepared.scene = std::move(scene);
@@ -83,7 +83,8 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
                        ? moveInstances(std::move(previous.bvh), prepared.primitives, split)
                        : updateSceneBvh(std::move(previous.bvh), previous.primitives, prepared.primitives, split);
     prepared.split = split;
-    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat, same);
+    prepared.flat = use == SceneUse::Once ? flattenScene(prepared.scene, prepared.primitives, std::move(prepared.bvh))
+                                          : flattenScene(prepared.scene, prepared.primitives, prepared.bvh, previous.flat, same);
     if (first) {
         sayTextureMemory(prepared.flat);
     }
@@ -101,16 +102,19 @@ PreparedScene prepareScene(const std::filesystem::path& file, const LoadOptions&
 {
     const Clock::time_point start = Clock::now();
     stage("loading " + file.filename().string());
-    return within(file, [&] { return prepare(loadGltf(file, options), split, start, {}, stage); });
+    return within(file, [&] { return prepare(loadGltf(file, options), split, start, {}, stage, SceneUse::Again); });
 }
 
-void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split, const Stage& stage)
+void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split, const Stage& stage, SceneUse use)
 {
     const Clock::time_point start = Clock::now();
     stage("loading " + file.path().filename().string());
     prepared = within(file.path(), [&] {
         Scene scene = file.sceneAt(seconds);
-        return prepare(std::move(scene), split, start, std::move(prepared), stage);
+        if (use == SceneUse::Once) {
+            file.release();
+        }
+        return prepare(std::move(scene), split, start, std::move(prepared), stage, use);
     });
 }
 

@@ -33,12 +33,15 @@ void sayIfCameraIsNumber(const Scene& scene, const std::optional<std::string>& c
 // Warns on stderr if the scene has no light.
 void warnIfNoLights(const PreparedScene& prepared);
 
+// Once: frees what the file has read and the tree's nodes as soon as the flat scene needs them no more.
+enum class SceneUse { Once, Again };
+
 // Makes it the scene of a file at `seconds` into its animation, or if absent in its rest pose. If it holds the file's scene at another time
 // or with other edits, only what differs is made again, and what it warned of is not printed again. If the file refuses, throws InputError
 // and leaves it as it was.
 void updateScene(
     PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split,
-    const std::function<void(const std::string&)>& stage = [](const std::string&) {});
+    const std::function<void(const std::string&)>& stage = [](const std::string&) {}, SceneUse use = SceneUse::Again);
 // The same after edits in place of the file's. If they are refused, neither scene nor file has changed.
 void editScene(PreparedScene& prepared, SceneFile& file, const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split);
 

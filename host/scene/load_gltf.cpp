@@ -568,6 +568,8 @@ void SceneFile::chooseLight(Scene& scene, bool isPosed, Warnings& warnings)
     }
 }
 
+void SceneFile::release() { contents_.reset(); }
+
 Scene SceneFile::sceneAt(std::optional<double> seconds)
 {
     if (!contents_) {

@@ -73,6 +73,8 @@ public:
     // file's whole rest pose, at any time, and what is added as it comes. Throws InputError with one sentence that names file, place, value
     // and what was expected.
     Scene sceneAt(std::optional<double> seconds);
+    // Frees what was read; the next scene reads it again.
+    void release();
     // Edits in place of those of the options. Buffers, images and maps stay, and meshes that no edit bends. A pointer begins with the name
     // of an added file and a # where it is one of that file. Throws InputError, and then nothing is changed.
     void edit(const std::vector<Edit>& edits);
