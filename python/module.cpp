@@ -187,7 +187,7 @@ private:
             keep(std::move(session), std::move(rayKernels));
             return nullptr;
         }
-        labelFilm(rendered.film, options);
+        labelFilm(rendered.film, options, frame);
         warnIfUnknown(rendered);
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));

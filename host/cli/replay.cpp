@@ -284,17 +284,17 @@ void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
         vertices.append(vertexJson(report, vertex));
     }
     const SamplePlace& place = *report.options.replay;
-    const Json json = {
-        {"scene", report.options.scene.string()},
-        {"size", Json::array({report.settings.width, report.settings.height})},
-        {"x", place.x},
-        {"y", place.y},
-        {"sample", place.sample},
-        {"settings", describeSettings(report.settings) + describeCamera(report.options.pose, report.options.field, report.options.lens)},
-        {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
-        {"radiance", jsonOf(report.path.radiance.radiance)},
-        {"clamped", report.path.radiance.clamped},
-        {"vertices", vertices}};
+    const Json json = {{"scene", report.options.scene.string()},
+                       {"size", Json::array({report.settings.width, report.settings.height})},
+                       {"x", place.x},
+                       {"y", place.y},
+                       {"sample", place.sample},
+                       {"settings", describeSettings(report.settings) + describeCamera(report.options.pose, report.options.field,
+                                                                                       report.options.lens, report.options.projection)},
+                       {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"kind", report.device.kind}}},
+                       {"radiance", jsonOf(report.path.radiance.radiance)},
+                       {"clamped", report.path.radiance.clamped},
+                       {"vertices", vertices}};
     writeJson(file, json);
 }
 

@@ -2,6 +2,8 @@
 
 #include "host/text.hpp"
 
+#include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,7 +14,36 @@ using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
 std::string pointText(const glm::dvec3& v) { return exactText(v.x) + "," + exactText(v.y) + "," + exactText(v.z); }
 
-OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens)
+std::string numbersText(std::span<const double> numbers)
+{
+    std::string text;
+    for (const double number : numbers) {
+        text += (text.empty() ? "" : ",") + exactText(number);
+    }
+    return text;
+}
+
+void addProjection(const Projection& projection, OptionValues& words)
+{
+    using Model = Projection::Model;
+    const std::span<const double> distortion(projection.distortion);
+    if (projection.intrinsics) {
+        const auto& [focal, center, size] = *projection.intrinsics;
+        words.emplace_back("intrinsics", numbersText(std::array{focal.x, focal.y, center.x, center.y}));
+    }
+    if (projection.shift != glm::dvec2(0.0)) {
+        words.emplace_back("shift", numbersText(std::array{projection.shift.x, projection.shift.y}));
+    }
+    if (projection.model == Model::RadialTangential || projection.model == Model::Fisheye) {
+        const bool isFisheye = projection.model == Model::Fisheye;
+        words.emplace_back(isFisheye ? "fisheye" : "distortion", numbersText(isFisheye ? distortion.first(4) : distortion));
+    }
+    if (projection.model == Model::Equirectangular) {
+        words.emplace_back("projection", "equirectangular");
+    }
+}
+
+OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
 {
     OptionValues words;
     if (pose) {
@@ -28,6 +59,7 @@ OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& fie
         words.emplace_back("lens-radius", exactText(lens.radius));
         words.emplace_back("focal-distance", exactText(lens.focalDistance));
     }
+    addProjection(projection, words);
     return words;
 }
 
@@ -42,14 +74,14 @@ std::string join(const OptionValues& words, const char* before, const char* betw
 
 }  // namespace
 
-std::string describeCamera(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens)
+std::string describeCamera(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
 {
-    return join(listOptions(pose, field, lens), " ", "=");
+    return join(listOptions(pose, field, lens, projection), " ", "=");
 }
 
-std::string cameraOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens)
+std::string cameraOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
 {
-    return join(listOptions(pose, field, lens), " --", " ");
+    return join(listOptions(pose, field, lens, projection), " --", " ");
 }
 
 }  // namespace glim

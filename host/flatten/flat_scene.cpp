@@ -116,7 +116,10 @@ std::uint64_t fingerprint(const FlatScene& scene)
 std::string fingerprint(std::uint64_t scene, const FlatCamera& camera)
 {
     Fingerprint print(scene);
-    print.add(std::vector<FlatCamera>{camera});
+    print.addBytes(std::as_bytes(std::span(&camera, 1)).first(offsetof(FlatCamera, projection)));
+    if (camera.projection.model != kCentredFilm) {
+        print.add(std::vector<FlatProjection>{camera.projection});
+    }
     return hexadecimal(print.state());
 }
 

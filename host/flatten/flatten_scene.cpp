@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 namespace glim {
@@ -213,6 +214,40 @@ std::vector<bool> findColored(const Scene& scene)
     return colored;
 }
 
+bool isSpherical(const Projection& projection) { return projection.model >= Projection::Model::Fisheye; }
+
+// The half sides of the picture on the image plane; `own`: of the camera itself.
+vec2 planeOf(const Projection& projection, const vec2& own)
+{
+    if (projection.model == Projection::Model::Equirectangular) {
+        return {std::numbers::pi_v<float>, 0.5F * std::numbers::pi_v<float>};
+    }
+    return projection.intrinsics ? vec2(0.5 * projection.intrinsics->size / projection.intrinsics->focal) : own;
+}
+
+FlatProjection flattenProjection(const Projection& projection, const vec2& plane, float aspectRatio)
+{
+    constexpr std::array kModels{kShiftedFilm, kRadialTangential, kFisheye, kEquirectangular};
+    if (projection == Projection()) {
+        return {};
+    }
+    const double aspect = static_cast<double>(aspectRatio);
+    const Intrinsics intrinsics = projection.intrinsics.value_or(Intrinsics{.center = glm::dvec2(0.5)});
+    const glm::dvec2 center = intrinsics.center / intrinsics.size;
+    const glm::dvec2 shift = 2.0 * projection.shift * (aspect > 1.0 ? glm::dvec2(1.0, aspect) : glm::dvec2(1.0 / aspect, 1.0));
+    FlatProjection flat{};
+    flat.model = kModels[static_cast<std::size_t>(projection.model)];
+    flat.shift = vec2(shift - glm::dvec2(2.0 * center.x - 1.0, 1.0 - 2.0 * center.y));
+    flat.scale = plane;
+    const auto& d = projection.distortion;
+    const bool isFisheye = projection.model == Projection::Model::Fisheye;
+    flat.radial = isFisheye ? vec4(d[0], d[1], d[2], d[3]) : vec4(d[0], d[1], d[4], d[5]);
+    flat.radial2 = isFisheye ? vec2(0.0F) : vec2(d[6], d[7]);
+    flat.tangential = isFisheye ? vec2(0.0F) : vec2(-d[2], d[3]);
+    flat.end = static_cast<float>(findEnd(projection));
+    return flat;
+}
+
 // The same primitives as before, if the references had marks: whether a material emits is part of what makes surfaces the same.
 void markLights(FlatScene& flat, std::span<const std::uint32_t> order, std::span<const std::uint32_t> refOfPrimitive)
 {
@@ -361,14 +396,18 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
     const float halfWidth = perspective ? halfHeight * aspectRatio : std::copysign(halfHeight * aspectRatio, camera.halfWidth);
+    const vec2 plane = planeOf(camera.projection, vec2(halfWidth, halfHeight));
+    const vec2 axes = isSpherical(camera.projection) ? vec2(1.0F) : plane;
     return {camera.position,
-            camera.right * halfWidth,
-            camera.up * halfHeight,
+            camera.right * axes.x,
+            camera.up * axes.y,
             camera.forward,
             perspective ? kPerspective : kOrthographic,
             camera.right * lens.radius,
             camera.up * lens.radius,
-            1.0F / lens.focalDistance};
+            1.0F / lens.focalDistance,
+            0,
+            flattenProjection(camera.projection, plane, aspectRatio)};
 }
 
 }  // namespace glim

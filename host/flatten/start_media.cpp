@@ -104,8 +104,9 @@ void forEachSurface(const FlatScene& flat, const Visit& visit)
 // Where rays of the camera begin.
 Bounds boundOrigins(const FlatCamera& camera)
 {
-    const vec3 extent = glm::abs(camera.lensRight) + glm::abs(camera.lensUp) +
-                        (camera.kind == kOrthographic ? glm::abs(camera.right) + glm::abs(camera.up) : vec3(0.0F));
+    const vec2 farthest = 1.0F + glm::abs(camera.projection.shift);
+    const vec3 film = farthest.x * glm::abs(camera.right) + farthest.y * glm::abs(camera.up);
+    const vec3 extent = glm::abs(camera.lensRight) + glm::abs(camera.lensUp) + (camera.kind == kOrthographic ? film : vec3(0.0F));
     return {glm::dvec3(camera.position - extent), glm::dvec3(camera.position + extent)};
 }
 

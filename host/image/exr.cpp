@@ -16,11 +16,14 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfVersion.h>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -244,6 +247,10 @@ Imf::Header headerOf(const Image& image)
     for (const auto& [name, value] : image.attributes) {
         if (const auto* number = std::get_if<double>(&value)) {
             header.insert(name, Imf::DoubleAttribute(*number));
+        } else if (const auto* matrix = std::get_if<glm::mat4>(&value)) {
+            Imath::M44f rows;
+            std::memcpy(rows.x, glm::value_ptr(glm::transpose(*matrix)), sizeof rows.x);
+            header.insert(name, Imf::M44fAttribute(rows));
         } else {
             header.insert(name, Imf::StringAttribute(name == kHeaderDigest ? std::string(kDigits, '0') : std::get<std::string>(value)));
         }

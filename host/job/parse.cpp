@@ -150,6 +150,22 @@ std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, co
     return range;
 }
 
+std::vector<double> parseNumbers(const std::string& option, const OptionValue& value, const std::vector<std::size_t>& counts,
+                                 const std::string& expected)
+{
+    const std::vector<std::string> parts = value.split(',');
+    std::vector<double> numbers(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!parseNumber(parts[i], numbers[i]) || !std::isfinite(numbers[i])) {
+            refuseValue(option, value.text(), false, expected);
+        }
+    }
+    if (std::ranges::find(counts, parts.size()) == counts.end()) {
+        refuseValue(option, value.text(), false, expected);
+    }
+    return numbers;
+}
+
 double parsePercent(const std::string& option, const OptionValue& value)
 {
     const std::string text = value.text();

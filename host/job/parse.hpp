@@ -46,10 +46,13 @@ Addition parseAddition(const OptionValue& value);   // "FILE", "FILE@x,y,z", or 
 std::string describeAddition(const Addition& addition);
 SamplePlace parseSample(const OptionValue& value);                           // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const OptionValue& value);  // "1,2.5,-3"
-double parsePercent(const std::string& option, const OptionValue& value);    // "1%", in (0, 1000]; returns 1 for 100%
-double parseDuration(const std::string& option, const OptionValue& value);   // "90s", "5m" or "1h", > 0; returns seconds
-std::optional<double> parseExposure(const OptionValue& value);               // "-1.5", in stops; nothing for "auto"
-float parseSurvival(const OptionValue& value);                               // "fixed:0.7", in (0, 1]
+// Finite numbers, as many as one of `counts` says; `expected` describes them in messages.
+std::vector<double> parseNumbers(const std::string& option, const OptionValue& value, const std::vector<std::size_t>& counts,
+                                 const std::string& expected);
+double parsePercent(const std::string& option, const OptionValue& value);   // "1%", in (0, 1000]; returns 1 for 100%
+double parseDuration(const std::string& option, const OptionValue& value);  // "90s", "5m" or "1h", > 0; returns seconds
+std::optional<double> parseExposure(const OptionValue& value);              // "-1.5", in stops; nothing for "auto"
+float parseSurvival(const OptionValue& value);                              // "fixed:0.7", in (0, 1]
 
 // An option whose value is one number (uint32_t, float or double) in [low, high]; never NaN. The help shows `what`, the range and, in
 // brackets, the default.

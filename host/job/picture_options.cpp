@@ -9,41 +9,6 @@
 namespace glim {
 namespace {
 
-Option addPoint(OptionTable& table, const std::string& name, const std::string& help, PictureOptions& options, glm::dvec3 Pose::*point)
-{
-    return table.add(name, "X,Y,Z", help, [&options, name, point](const OptionValue& value) {
-        options.pose = options.pose.value_or(Pose{});
-        (*options.pose).*point = parsePoint(name, value);
-    });
-}
-
-void addPose(OptionTable& table, PictureOptions& options)
-{
-    const Option from = addPoint(table, "--look-from", "Place the camera here instead, in world coordinates", options, &Pose::from);
-    const Option at = addPoint(table, "--look-at", "Point in the middle of the picture", options, &Pose::at);
-    from.needs(at);
-    at.needs(from);
-    addPoint(table, "--look-up", "Direction that points upwards in the picture [0,1,0]", options, &Pose::up).needs(from);
-}
-
-void addField(OptionTable& table, FieldOfView& field)
-{
-    addNumber<double>(table, {"--fov", "DEG", "Vertical field of view in degrees", 0.01, 179.0, "the camera's"},
-                      [&field](double degrees) { field.degrees = degrees; });
-    addNumber<double>(table, {"--zoom", "Z", "Magnification", 1e-6, 1e6, "1"}, [&field](double zoom) { field.zoom = zoom; });
-}
-
-void addLens(OptionTable& table, PictureOptions& options)
-{
-    const Option radius = addNumber<float>(table, {"--lens-radius", "R", "Radius of a thin lens in metres", 0.0F, 1e6F, "0, a pinhole"},
-                                           [&options](float metres) { options.lens.radius = metres; });
-    const Option distance =
-        addNumber<float>(table, {"--focal-distance", "D", "Distance of the plane in focus, in metres", 1e-6F, 1e9F, "none"},
-                         [&options](float metres) { options.lens.focalDistance = metres; });
-    radius.needs(distance);
-    distance.needs(radius);
-}
-
 void addRoulette(OptionTable& table, RenderSettings& settings)
 {
     table.add("--roulette", "R", "Russian roulette: throughput, none, or fixed:P, a survival probability [throughput]",
@@ -104,15 +69,6 @@ void addTextures(OptionTable& table, MissingTextures& missing, std::uint32_t& la
         table,
         {"--max-texture", "N", "Scale larger images down to N pixels a side or less", 1, kMaxImageSide, std::to_string(kMaxImageSide)},
         [&largest](std::uint32_t pixels) { largest = pixels; });
-}
-
-void addCamera(OptionTable& table, PictureOptions& options, const std::string& more)
-{
-    table.beginGroup("Camera");
-    table.addText("--camera", "NAME|INDEX", "Camera of the file, or framed: one that sees the whole scene" + more + " [0]", options.camera);
-    addPose(table, options);
-    addField(table, options.field);
-    addLens(table, options);
 }
 
 void addSampleCount(OptionTable& table, RenderSettings& settings, const std::string& sppDefault, const std::string& rangeDefault)
@@ -228,12 +184,6 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
     }
     return load;
-}
-
-Camera makeCamera(const Scene& scene, const PictureOptions& options)
-{
-    const Camera camera = applyField(findCamera(scene, options.camera), options.field);
-    return options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
 }
 
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)

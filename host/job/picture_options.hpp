@@ -22,6 +22,7 @@ struct PictureOptions {
     std::optional<std::string> device, camera;
     std::optional<Pose> pose;
     FieldOfView field;
+    Projection projection;  // without the picture's size
     std::optional<EnvironmentChoice> environment;
     std::string variant, animation;
     std::optional<double> at;          // seconds
@@ -51,6 +52,7 @@ void addSampler(OptionTable& table, RenderSettings& settings);
 
 // Each adds a whole group of the help. `more`: what else --camera may be.
 void addCamera(OptionTable& table, PictureOptions& options, const std::string& more = "");
+void addProjection(OptionTable& table, PictureOptions& options);
 void addLightTransport(OptionTable& table, RenderSettings& settings);
 void addCaustics(OptionTable& table, RenderSettings& settings);
 void addCourseEstimators(OptionTable& table, RenderSettings& settings);

@@ -78,6 +78,7 @@ void addJobOptions(OptionTable& table, RenderJob& options)
     table.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]",
               [&options](const OptionValue& value) { options.settings.rows = parseRange("--rows", value, kMaxSide); });
     addCamera(table, options, ", or all");
+    addProjection(table, options);
     addSequence(table, options);
     table.beginGroup("Sampling and stopping");
     addSampleCount(table, options.settings, "64; 4 with a --view other than shaded", "0:64");

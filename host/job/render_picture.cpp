@@ -4,6 +4,7 @@
 #include "host/job/outcome.hpp"
 #include "host/message.hpp"
 #include "host/render/check_memory.hpp"
+#include "host/render/film_camera.hpp"
 #include "host/render/film_identity.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/text.hpp"
@@ -21,21 +22,23 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
     const RenderSettings settings = settingsFor(options, camera);
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings};
+    return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings,
+            describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at)};
 }
 
-void labelFilm(Film& film, const RenderJob& options)
+void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame)
 {
+    film.camera = frame.description;
     film.sceneFile = options.scene.string();
     film.showsBackground = options.environmentBackground;
-    film.identity.settings += describeCamera(options.pose, options.field, options.lens);
+    film.identity.settings += describeCamera(options.pose, options.field, options.lens, options.projection);
 }
 
 std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)
 {
     Film expected = emptyFilm(frame.settings);
     expected.identity = makeIdentity(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
-    labelFilm(expected, options);
+    labelFilm(expected, options, frame);
     if (film.identity.kernels != expected.identity.kernels) {
         return Message(MessageId::Mismatch, {"it is by another version of glim's ", part::place("kernels"),
                                              "; `glim merge` adds samples that this one renders"});

@@ -16,6 +16,7 @@ namespace glim {
 struct PictureFrame {
     FlatCamera camera;
     RenderSettings settings;
+    std::string description;  // of the camera (film_camera.hpp)
 };
 
 // The session must be posed at the picture's time. Throws InputError for a camera that the scene lacks and for a picture that the device
@@ -23,7 +24,7 @@ struct PictureFrame {
 PictureFrame framePicture(const SceneSession& session, const RenderJob& options);
 
 // Adds what the film's file says besides its samples, so that the film can be made again from it.
-void labelFilm(Film& film, const RenderJob& options);
+void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame);
 
 // In what a film is not of the picture, as in "its seed is 1, expected 0"; nothing if it is of it.
 std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options);

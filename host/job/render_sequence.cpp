@@ -262,7 +262,7 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
         resumeFrom(renderer, *std::move(stored), part::file(options.mainFile()));
     }
     stored.reset();
-    CheckpointWriter writer(options.checkpoint, options.mainFile(), [&options](Film& film) { labelFilm(film, options); });
+    CheckpointWriter writer(options.checkpoint, options.mainFile(), [&](Film& film) { labelFilm(film, options, frame); });
     ProgressPrinter progress(options.progress, frame.settings.seconds, frame.settings.pixelCount(), place_);
     RenderedFilm rendered;
     try {
@@ -348,7 +348,7 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     if (watch_->signal() != 0 && wouldRuin(options.mainFile(), film)) {
         return finish(watch_->signal(), "some pixels had no sample yet, so " + options.mainFile().string() + " is left as it was");
     }
-    labelFilm(film, options);
+    labelFilm(film, options, frame);
     const std::optional<Denoising>& denoising = rendered.denoising;
     const auto start = Clock::now();
     std::optional<FilmDigests> digests = writeFilmOf(options, rendered, denoising);

@@ -44,6 +44,7 @@ struct Film {
     std::string device;           // names the device and driver
     std::string arithmetic;       // fingerprints of how all devices round, with spaces between them
     std::string sceneFile;        // as given
+    std::string camera;           // as describeFilmCamera() says; empty of films of earlier builds
     bool showsBackground = true;  // false: pictures are transparent where no surface is
 };
 

@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/render/film_camera.hpp"
 #include "host/text.hpp"
 #include "version.h"
 
@@ -29,7 +30,7 @@ bool hasSplats(double format) { return format == kUnsealedWithSplats || format =
 
 constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenEXR, for as many cores
 
-constexpr const char* kBackground = "glim:background";
+constexpr const char *kBackground = "glim:background", *kCamera = "glim:camera";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 
 // Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
@@ -288,6 +289,12 @@ Image headerOf(const Film& film, const FilmDigests& digests)
     if (!film.showsBackground) {
         image.attributes[kBackground] = "off";
     }
+    if (!film.camera.empty()) {
+        image.attributes[kCamera] = film.camera;
+    }
+    if (const auto worldToCamera = worldToCameraOf(film.camera)) {
+        image.attributes["worldToCamera"] = *worldToCamera;
+    }
     return image;
 }
 
@@ -418,6 +425,7 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     film.sceneFile = attribute<std::string>(path, image, "glim:sceneFile");
     film.identity.kernels = textIfPresent(image, "glim:kernels");
     film.arithmetic = textIfPresent(image, "glim:arithmetic");
+    film.camera = textIfPresent(image, kCamera);
     film.showsBackground = textIfPresent(image, kBackground) != "off";
     return film;
 }

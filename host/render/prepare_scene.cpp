@@ -186,6 +186,9 @@ FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, fl
 glm::uvec2 defaultSize(const Camera& camera)
 {
     constexpr std::uint32_t kHeight = 512;
+    if (camera.projection.model == Projection::Model::Equirectangular) {
+        return {2 * kHeight, kHeight};
+    }
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
     const float aspectRatio =
         orthographic ? std::abs(camera.halfWidth / camera.halfHeight) : camera.aspectRatio.value_or(kUsualAspectRatio);

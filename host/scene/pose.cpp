@@ -3,6 +3,9 @@
 #include "host/error.hpp"
 #include "host/text.hpp"
 
+#include <glm/gtc/matrix_access.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +61,39 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     placed.up = glm::vec3(glm::cross(right, forward));
     magnify(placed, pose.zoom);
     return placed;
+}
+
+Camera applyProjection(const Camera& camera, const Projection& projection, const std::optional<glm::uvec2>& size)
+{
+    const bool isOfPerspective = projection.intrinsics || projection.model == Projection::Model::RadialTangential;
+    if (isOfPerspective && camera.kind == Camera::Kind::Orthographic) {
+        throw InputError(MessageId::Conflict,
+                         {part::place(projection.intrinsics ? "--intrinsics" : "--distortion"), ": camera ", part::quoted(camera.name),
+                          " is orthographic; expected ", part::expected("a perspective camera"), "."});
+    }
+    Camera changed = camera;
+    changed.projection = projection;
+    if (projection.intrinsics) {
+        changed.projection.intrinsics->size = glm::dvec2(size.value());
+    }
+    return changed;
+}
+
+std::optional<Pose> computeRigidPose(const glm::dmat4& worldFromCamera, const glm::dvec3& toGltf)
+{
+    constexpr double kMatrixRounding = 1e-4;  // of matrices that were float32, or printed with few digits
+    const glm::dmat3 axes(worldFromCamera[0] * toGltf.x, worldFromCamera[1] * toGltf.y, worldFromCamera[2] * toGltf.z);
+    const glm::dmat3 off = glm::transpose(axes) * axes - glm::dmat3(1.0);
+    const glm::dvec4 row = glm::row(worldFromCamera, 3) - glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    const double most = std::max({glm::length(off[0]), glm::length(off[1]), glm::length(off[2]), glm::length(row)});
+    if (!(most <= kMatrixRounding) || !(glm::determinant(axes) > 0.0)) {
+        return std::nullopt;
+    }
+    Pose pose;
+    pose.from = glm::dvec3(worldFromCamera[3]);
+    pose.at = pose.from - axes[2];
+    pose.up = axes[1] + 0.0;  // no -0 in a film's settings
+    return pose;
 }
 
 Pose computePose(const Camera& camera, double distance, const glm::dvec3& sceneOrigin)

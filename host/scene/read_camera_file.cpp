@@ -60,11 +60,11 @@ private:
             refuse(MessageId::WrongType,
                    {part::place(place_), " is ", part::value(entry_.dump().substr(0, 40)), "; expected ", part::expected("an object")});
         }
-        constexpr std::array kMembers{"camera", "from", "at", "up", "zoom", "matrix", "yfov"};
+        constexpr std::array kMembers{"camera", "from", "at", "up", "zoom", "matrix", "axes", "yfov"};
         for (const auto& [name, value] : entry_.items()) {
             if (std::find(kMembers.begin(), kMembers.end(), name) == kMembers.end()) {
                 refuse(MessageId::UnknownName, {part::place(place_), " has a member \"", part::value(name), "\"; expected ",
-                                                part::expected("camera, from, at, up, zoom, matrix or yfov")});
+                                                part::expected("camera, from, at, up, zoom, matrix, axes or yfov")});
             }
         }
         if (entry_.contains("from") != entry_.contains("at")) {
@@ -80,6 +80,10 @@ private:
                 refuse(MessageId::Requires, {part::place(place_), " has a member \"", part::value(member), "\" without from; expected ",
                                              part::expected("from and at with it")});
             }
+        }
+        if (entry_.contains("axes") && !entry_.contains("matrix")) {
+            refuse(MessageId::Requires, {part::place(place_), " has a member \"", part::value("axes"), "\" without matrix; expected ",
+                                         part::expected("a matrix with them")});
         }
         if (entry_.contains("zoom") && entry_.contains("yfov")) {
             refuse(MessageId::Conflict,
@@ -146,10 +150,24 @@ private:
         return pose;
     }
 
+    bool isOpenCv() const
+    {
+        if (!entry_.contains("axes")) {
+            return false;
+        }
+        const json& axes = entry_["axes"];
+        if (axes != "gltf" && axes != "opencv") {
+            refuse(MessageId::UnknownName, {part::place(place_ + ".axes"), " is ", part::value(axes.dump().substr(0, 40)), "; expected ",
+                                            part::expected("\"gltf\" or \"opencv\"")});
+        }
+        return axes == "opencv";
+    }
+
     // A glTF camera looks along its -z, and its +y is up.
     Pose computePose(const std::array<double, 16>& m) const
     {
-        const glm::dvec3 up(m[4], m[5], m[6]), backward(m[8], m[9], m[10]);
+        const double sign = isOpenCv() ? -1.0 : 1.0;
+        const glm::dvec3 up = sign * glm::dvec3(m[4], m[5], m[6]), backward = sign * glm::dvec3(m[8], m[9], m[10]);
         if (!(glm::length(glm::cross(up, backward)) > 0.0) || glm::length(glm::dvec4(m[3], m[7], m[11], m[15] - 1.0)) > kAffineRounding) {
             refuse(MessageId::Degenerate, {part::place(place_ + ".matrix"), " is not the pose of a camera; expected ",
                                            part::expected("axes that differ and a last row of 0, 0, 0, 1")});

@@ -6,6 +6,7 @@
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
 #include "host/message.hpp"
+#include "host/scene/projection.hpp"
 #include "host/shared_vector.hpp"
 #include "shaders/shared/texture_slots.h"
 
@@ -186,6 +187,7 @@ struct Camera {
     float yfov = 0.7F;                                         // radians, perspective
     float halfWidth = 1.0F, halfHeight = 1.0F;                 // metres, orthographic: glTF's xmag and ymag, negative if mirrored
     std::optional<float> aspectRatio;                          // width / height, where the file names one
+    Projection projection;                                     // from here on; files know none
 };
 
 // A motion of the file, which poses the scene at a time.

@@ -2,6 +2,7 @@
 #ifndef GLIM_ACCESS_FIRST_HIT
 #define GLIM_ACCESS_FIRST_HIT
 
+#include "lib/camera.glsl"
 #include "lib/finite.glsl"
 #include "interaction.glsl"
 #include "parameters.glsl"
@@ -13,7 +14,7 @@ FirstHit makeNoFirstHit()
 
 FirstHit makeFirstHit(SurfaceInteraction si, MaterialData material, vec3 wo)
 {
-    float depth = dot(si.p - render.camera.position, render.camera.forward);
+    float depth = depthFromCamera(render.camera, kProjection, si.p);
     return FirstHit(material.baseColor, 1.0, visibleNormal(si, wo), depth);
 }
 

@@ -70,7 +70,7 @@ CameraConnection connect(SampleId id, SurfaceInteraction si, uint bounce)
     if (kLens) {
         disk = sampleDisk(unitFloat(independentPair(id, kDimensionCameraLens + bounce)));
     }
-    return connectToCamera(render.camera, si.p, disk);
+    return connectToCamera(render.camera, kProjection, si.p, disk);
 }
 
 // Whether the picture shows the connection's film coordinates; `pixel` is then where.

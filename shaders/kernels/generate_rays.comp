@@ -18,7 +18,14 @@
 
 PathRay rayThrough(FlatCamera camera, SampleId id, vec2 film)
 {
-    return kLens ? lensRay(camera, film, sampleDisk(unitFloat(samplePair(id, kDimensionLens, kSobol)))) : cameraRay(camera, film);
+    if (kProjection >= kFisheye) {
+        return sphericalRay(camera, kProjection, film);
+    }
+    vec2 plane = film;
+    if (kProjection != kCentredFilm && !planeFromFilm(camera.projection, kProjection, film, plane)) {
+        return rayOfNothing();
+    }
+    return kLens ? lensRay(camera, plane, sampleDisk(unitFloat(samplePair(id, kDimensionLens, kSobol)))) : cameraRay(camera, plane);
 }
 
 void main()
@@ -39,7 +46,8 @@ void main()
             ray.media = mediaAround(ray.origin, uncounted);
         }
         storeRay(slot, ray);
-        storeState(slot, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u));
+        vec3 throughput = vec3(kProjection == kCentredFilm || ray.origin != rayOfNothing().origin ? 1.0 : 0.0);
+        storeState(slot, PathState(throughput, 0.0, 0.0, 1.0, 0u, 0u));
         storeRadiance(slot, PathRadiance(vec3(0.0), 0.0));
         nextQueue[slot] = slot;
     }

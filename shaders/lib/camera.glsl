@@ -2,6 +2,7 @@
 #ifndef GLIM_LIB_CAMERA
 #define GLIM_LIB_CAMERA
 
+#include "projection.glsl"
 #include "shared/path_types.h"
 #include "shared/scene_types.h"
 
@@ -25,23 +26,39 @@ vec3 normalizeSum(vec3 forward, vec3 across)
     return forward + (across - forward * (square / (1.0 + secant))) / secant;
 }
 
-PathRay cameraRay(FlatCamera camera, vec2 film)
+// `plane`: a point of the image plane.
+PathRay cameraRay(FlatCamera camera, vec2 plane)
 {
-    vec3 across = film.x * camera.right + film.y * camera.up;
+    vec3 across = plane.x * camera.right + plane.y * camera.up;
     return camera.kind == kOrthographic ? PathRay(camera.position + across, kNoPrimitive, camera.forward, 0u)
                                         : PathRay(camera.position, kNoPrimitive, normalizeSum(camera.forward, across), 0u);
 }
 
-// The ray through a thin lens. `disk`: the point of the aperture, in the unit disk. All rays of one film point meet where the pinhole's ray
+// The ray through a thin lens. `disk`: the point of the aperture, in the unit disk. All rays of one point meet where the pinhole's ray
 // meets the plane of focus (Cook, Porter, Carpenter, "Distributed Ray Tracing", 1984).
-PathRay lensRay(FlatCamera camera, vec2 film, vec2 disk)
+PathRay lensRay(FlatCamera camera, vec2 plane, vec2 disk)
 {
-    vec3 across = film.x * camera.right + film.y * camera.up;
+    vec3 across = plane.x * camera.right + plane.y * camera.up;
     vec3 aperture = disk.x * camera.lensRight + disk.y * camera.lensUp;
     bool orthographic = camera.kind == kOrthographic;
     vec3 origin = camera.position + aperture + (orthographic ? across : vec3(0.0));
     vec3 slope = (orthographic ? vec3(0.0) : across) - aperture * camera.inverseFocus;
     return PathRay(origin, kNoPrimitive, normalizeSum(camera.forward, slope), 0u);
+}
+
+// From a point in no scene, away from every scene.
+PathRay rayOfNothing()
+{
+    return PathRay(vec3(1e15), kNoPrimitive, vec3(0.57735027), 0u);
+}
+
+PathRay sphericalRay(FlatCamera camera, uint model, vec2 film)
+{
+    vec3 local;
+    if (!directionFromFilm(camera.projection, model, film, local)) {
+        return rayOfNothing();
+    }
+    return PathRay(camera.position, kNoPrimitive, normalize(local.x * camera.right + local.y * camera.up + local.z * camera.forward), 0u);
 }
 
 // A point as the camera sees it.
@@ -54,7 +71,7 @@ struct CameraConnection {
 
 // The ray of lensRay that leaves the aperture at `disk` and meets p. The weight is the camera's importance times cos / distance^2 on its side
 // (pbrt-v3, section 16.1.1); the mean of the film's radiance is radiance times weight, integrated over areas across wo.
-CameraConnection connectToCamera(FlatCamera camera, vec3 p, vec2 disk)
+CameraConnection connectToPlane(FlatCamera camera, uint model, vec3 p, vec2 disk)
 {
     vec3 aperture = disk.x * camera.lensRight + disk.y * camera.lensUp;
     vec3 from = p - camera.position - aperture;
@@ -65,8 +82,31 @@ CameraConnection connectToCamera(FlatCamera camera, vec3 p, vec2 disk)
     vec3 across = orthographic ? from - depth * along : along - camera.forward + aperture * camera.inverseFocus;
     float stretch2 = dot(along, along), stretch = sqrt(stretch2);  // 1 / cos
     float weight = stretch / sqrt(right2 * up2) * (orthographic ? 1.0 : stretch2 / dot(from, from));
-    return CameraConnection(p - along * depth, -along / stretch, vec2(dot(across, camera.right) / right2, dot(across, camera.up) / up2),
-                            depth > 0.0 ? 0.25 * weight : 0.0);
+    vec2 plane = vec2(dot(across, camera.right) / right2, dot(across, camera.up) / up2);
+    vec3 film = model == kCentredFilm ? vec3(plane, 1.0) : filmFromPlane(camera.projection, model, plane);
+    return CameraConnection(p - along * depth, -along / stretch, film.xy, depth > 0.0 ? 0.25 * weight * film.z : 0.0);
+}
+
+CameraConnection connectToSphere(FlatCamera camera, uint model, vec3 p)
+{
+    vec3 from = p - camera.position;
+    float square = dot(from, from);
+    vec3 direction = from / sqrt(square);
+    vec3 film = filmFromDirection(camera.projection, model,
+                                  vec3(dot(direction, camera.right), dot(direction, camera.up), dot(direction, camera.forward)));
+    return CameraConnection(camera.position, -direction, film.xy, square > 0.0 ? 0.25 * film.z / square : 0.0);
+}
+
+CameraConnection connectToCamera(FlatCamera camera, uint model, vec3 p, vec2 disk)
+{
+    return model >= kFisheye ? connectToSphere(camera, model, p) : connectToPlane(camera, model, p, disk);
+}
+
+// Metres along the axis or, where the film shows more than is ahead, from the camera.
+float depthFromCamera(FlatCamera camera, uint model, vec3 p)
+{
+    vec3 from = p - camera.position;
+    return model >= kFisheye ? length(from) : dot(from, camera.forward);
 }
 
 // The inverse of filmFromPixel.

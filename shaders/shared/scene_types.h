@@ -262,9 +262,28 @@ GLIM_CONST uint kMediaVary = 0x10000000u;  // above the numbers of the media
 // Along this ray the solids around a point are told from others, and which is the innermost. No axis, no diagonal; about a unit vector.
 GLIM_CONST vec3 kOutwards = vec3(0.36f, 0.48f, 0.8f);
 
-// For film coordinates (x, y) in [-1, 1], y up: perspective rays leave `position` along forward + x right + y up;
-// orthographic rays leave position + x right + y up along forward. A thin lens moves the origin by a point of the disk with
-// radii lensRight and lensUp, and turns the ray so that it meets the pinhole's ray at the depth 1 / inverseFocus.
+// How points of the film become points of the image plane (lib/projection.glsl).
+GLIM_CONST uint kCentredFilm = 0u;       // they are the same
+GLIM_CONST uint kShiftedFilm = 1u;       // the camera's axis does not meet the film's middle
+GLIM_CONST uint kRadialTangential = 2u;  // and the lens distorts
+GLIM_CONST uint kFisheye = 3u;
+GLIM_CONST uint kEquirectangular = 4u;  // all directions
+
+// OpenCV's models, with y up: its p1 has the other sign.
+struct FlatProjection {
+    uint model;
+    vec2 shift;       // from film coordinates to those of the image plane, in which the axis is at 0
+    vec2 scale;       // of the image plane: tangents, or radians of a fisheye, per unit
+    vec4 radial;      // k1 to k4
+    vec2 radial2;     // k5, k6
+    vec2 tangential;  // -p1, p2
+    float end;        // tangent or angle up to which distortion is monotonic; what is farther from the axis is not seen
+};
+
+// For coordinates (x, y) of the image plane, which are those of the film in [-1, 1] unless the projection says otherwise, y up: perspective
+// rays leave `position` along forward + x right + y up; orthographic rays leave position + x right + y up along forward. A thin lens moves
+// the origin by a point of the disk with radii lensRight and lensUp, and turns the ray so that it meets the pinhole's ray at the depth
+// 1 / inverseFocus. A fisheye and an equirectangular camera have unit vectors `right` and `up`, and no lens.
 struct FlatCamera {
     vec3 position;
     vec3 right;
@@ -275,6 +294,7 @@ struct FlatCamera {
     vec3 lensUp;
     float inverseFocus;
     uint media;  // in which its rays begin, as in PathRay; kMediaVary: those of one begin elsewhere than those of another
+    FlatProjection projection;
 };
 
 GLIM_SHARED_END

@@ -223,6 +223,8 @@ TEST(ViewOptionsTest, AreExact)
               " --look-from 0.1,1e-07,-3 --look-at 0.3333333333333333,0,0 --look-up 0,0,1 --zoom 2.5"
               " --lens-radius 0.1 --focal-distance 3");
     EXPECT_EQ(describeCamera(pose, {}, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 zoom=2.5");
+    const Projection lens{Projection::Model::Fisheye, Intrinsics{{600.5, 601}, {320, 240}, {640, 480}}, {0.1, 0}, {0.25, 0, 0, -1}};
+    EXPECT_EQ(describeCamera(std::nullopt, {}, {}, lens), " intrinsics=600.5,601,320,240 shift=0.1,0 fisheye=0.25,0,0,-1");
     EXPECT_EQ(describeCamera(pose, {20.0, 2.0}, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 fov=20 zoom=5");
 }
 

@@ -201,6 +201,22 @@ TEST(GltfExporters, MatricesOfCameraFilesToo)
     expectRefusal<InputError>([&] { read(0.999); }, MessageId::Degenerate, {.file = "cameras.json", .place = "[0].matrix"});
 }
 
+TEST(GltfExporters, CamerasByOpenCvsAxesLookTheOtherWay)
+{
+    json camera = {{"matrix", {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, 7, 1}}};
+    const auto read = [&camera] { return readCameraFile(writeTemporary("cameras.json", json::array({camera}).dump())).at(0).pose.value(); };
+    camera["axes"] = "gltf";
+    EXPECT_EQ(read().at, glm::dvec3(4, 6, 7));
+    EXPECT_EQ(read().up, glm::dvec3(0, 1, 0));
+    camera["axes"] = "opencv";
+    EXPECT_EQ(read().at, glm::dvec3(6, 6, 7));
+    EXPECT_EQ(read().up, glm::dvec3(0, -1, 0));
+    camera["axes"] = "blender";
+    expectRefusal<InputError>(read, MessageId::UnknownName, {.file = "cameras.json", .place = "[0].axes"});
+    camera = {{"axes", "opencv"}};
+    expectRefusal<InputError>(read, MessageId::Requires, {.file = "cameras.json", .place = "[0]"});
+}
+
 TEST(GltfExporters, MembersThatAreNullCountAsLeftOut)
 {
     GltfBuilder builder = withMaterial({{"name", nullptr},

@@ -326,5 +326,63 @@ TEST(RenderJob, NonsenseValuesAreRefused)
     }
 }
 
+TEST(RenderJob, IntrinsicsSayWhereTheirOriginIs)
+{
+    const Projection corner = parse("--size 640x480 --intrinsics 600,610,320,240.5").projection;
+    const Projection center = parse("--size 640x480 --intrinsics-opencv 600,610,319.5,240").projection;
+    ASSERT_TRUE(corner.intrinsics && center.intrinsics);
+    EXPECT_EQ(corner.intrinsics->focal, glm::dvec2(600.0, 610.0));
+    EXPECT_EQ(corner.intrinsics->center, glm::dvec2(320.0, 240.5));
+    EXPECT_EQ(*corner.intrinsics, *center.intrinsics);
+    EXPECT_EQ(corner.model, Projection::Model::Straight);
+}
+
+TEST(RenderJob, LensesHaveOpenCvsNumbers)
+{
+    const Projection lens = parse("--distortion 1,2,3,4,5").projection, all = parse("--distortion=-1,2,3,4,5,6,7,8").projection;
+    EXPECT_EQ(lens.model, Projection::Model::RadialTangential);
+    EXPECT_EQ(lens.distortion, (std::array<double, 8>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(all.distortion, (std::array<double, 8>{-1, 2, 3, 4, 5, 6, 7, 8}));
+    const Projection fisheye = parse("--fisheye 0.1,0,0,0.2").projection;
+    EXPECT_EQ(fisheye.model, Projection::Model::Fisheye);
+    EXPECT_EQ(fisheye.distortion, (std::array<double, 8>{0.1, 0, 0, 0.2}));
+    EXPECT_EQ(parse("--projection equirectangular").projection.model, Projection::Model::Equirectangular);
+    EXPECT_EQ(parse("--shift 0.1,-0.2").projection.shift, glm::dvec2(0.1, -0.2));
+}
+
+// The same camera: at (1, 2, 3), looking along +x with +z up.
+TEST(RenderJob, PosesNameTheirAxes)
+{
+    const Pose expected{{1, 2, 3}, {2, 2, 3}, {0, 0, 1}};
+    for (const char* options : {"--pose-gltf 0,0,-1,1,-1,0,0,2,0,1,0,3,0,0,0,1", "--pose-gltf 0,0,-1,1,-1,0,0,2,0,1,0,3",
+                                "--pose-opencv 0,0,1,1,-1,0,0,2,0,-1,0,3"}) {
+        const std::optional<Pose> pose = parse(options).pose;
+        ASSERT_TRUE(pose) << options;
+        EXPECT_LT(glm::distance(pose->from, expected.from) + glm::distance(pose->at, expected.at) + glm::distance(pose->up, expected.up),
+                  1e-12)
+            << options;
+    }
+}
+
+TEST(RenderJob, CamerasThatCannotBeAreRefused)
+{
+    for (const char* option : {"--intrinsics 1,2,3", "--intrinsics 600,a,320,240", "--distortion 1,2,3", "--distortion 1,2,3,4,5,6",
+                               "--fisheye 1,2,3,4,5", "--shift 1", "--pose-gltf 1,2,3", "--intrinsics 600,inf,320,240"}) {
+        expectRefused(option, MessageId::Malformed, partsOf(option));
+    }
+    expectRefused("--intrinsics 0,600,320,240 --size 8x8", MessageId::OutOfRange, {.place = "--intrinsics"});
+    // A mirror, a scale and a last row of another kind.
+    for (const char* matrix : {"-1,0,0,1,0,1,0,2,0,0,1,3", "2,0,0,1,0,2,0,2,0,0,2,3", "1,0,0,1,0,1,0,2,0,0,1,3,0,0,1,1"}) {
+        expectRefused(std::string("--pose-opencv ") + matrix, MessageId::Degenerate, {.place = "--pose-opencv"});
+    }
+    for (const char* pair : {"--fov 30", "--zoom 2", "--intrinsics-opencv 1,1,1,1", "--projection equirectangular"}) {
+        EXPECT_THROW(parse(std::string("--size 8x8 --intrinsics 1,1,1,1 ") + pair), UsageError) << pair;
+    }
+    EXPECT_THROW(parse("--intrinsics 1,1,1,1"), UsageError);  // of which picture?
+    EXPECT_THROW(parse("--fisheye 0,0,0,0 --distortion 0,0,0,0"), UsageError);
+    EXPECT_THROW(parse("--projection equirectangular --lens-radius 1 --focal-distance 1"), UsageError);
+    EXPECT_THROW(parse("--pose-gltf 1,0,0,1,0,1,0,2,0,0,1,3 --look-from 1,1,1 --look-at 0,0,0"), UsageError);
+}
+
 }  // namespace
 }  // namespace glim

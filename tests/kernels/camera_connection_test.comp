@@ -18,7 +18,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        CameraConnection connection = connectToCamera(c.camera, c.p, c.disk);
+        CameraConnection connection = connectToCamera(c.camera, kCentredFilm, c.p, c.disk);
         EXPECT_NEAR_VECTOR(connection.film, c.film, 2e-5);
         EXPECT_NEAR_VECTOR(connection.wo, c.wo, 2e-5);
         EXPECT_NEAR(connection.weight, c.weight, 2e-4 * c.weight);
@@ -28,7 +28,7 @@ void main()
         vec2 size = vec2(640.0, 480.0);
         EXPECT_NEAR_VECTOR(filmFromPixel(pixelFromFilm(c.film, size), size), c.film, 1e-6);
         vec3 behind = 2.0 * c.camera.position - c.p;
-        EXPECT_TRUE(connectToCamera(c.camera, behind, c.disk).weight == 0.0);
+        EXPECT_TRUE(connectToCamera(c.camera, kCentredFilm, behind, c.disk).weight == 0.0);
     }
     endTest();
 }

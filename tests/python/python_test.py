@@ -243,6 +243,61 @@ class FilmTest(PythonCase):
             glim.read(self.path("film.exr")).resume(spp=1000)
 
 
+class CameraTest(PythonCase):
+    K = np.array([[40.0, 0, 15.5], [0, 42.0, 11.25], [0, 0, 1]])
+    POSE = np.array([[0, 0, -1, 1.5], [0, -1, 0, 1.25], [-1, 0, 0, .5]])  # OpenCV's axes: looks along -x
+
+    def test_of_numbers_is_that_of_the_options(self):
+        camera = glim.Camera(self.K, origin="center", distortion=(-.2, .05, .001, 0), pose=self.POSE, axes="opencv", size=(32, 24))
+        film = glim.render(GEMS, camera=camera, spp=4)
+        told, _ = self.command_line(GEMS, "--size", "32x24", "--spp", "4", "--intrinsics", "40,42,16,11.75", "--distortion=-.2,.05,.001,0",
+                                    "--pose-opencv=0,0,-1,1.5,0,-1,0,1.25,-1,0,0,.5")
+        self.assertEqual(film.pixels_digest, told.pixels_digest)
+        self.assertEqual(film.settings, told.settings)
+
+    def test_comes_back_from_the_film_and_draws_the_same(self):
+        camera = glim.Camera(self.K, origin="center", distortion=(-.2, .05, .001, 0), pose=self.POSE, axes="opencv", size=(32, 24))
+        film = glim.render(GEMS, camera=camera, spp=4)
+        film.save(self.path("a.exr"))
+        for known in (film.camera, glim.read(self.path("a.exr")).camera):
+            np.testing.assert_allclose(known.K("center"), self.K, rtol=1e-15)
+            np.testing.assert_allclose(known.K("corner"), self.K + [[0, 0, .5], [0, 0, .5], [0, 0, 0]], rtol=1e-15)
+            np.testing.assert_allclose(known.pose("opencv")[:3], self.POSE, atol=1e-7)
+            self.assertEqual(known.distortion, [-.2, .05, .001, 0, 0, 0, 0, 0])
+        again = glim.render(GEMS, camera=film.camera, size=(32, 24), spp=4)
+        np.testing.assert_allclose(again.depth, film.depth, rtol=1e-5)
+        self.assertIsNone(film.time)
+
+    def test_of_the_file_has_a_K_and_a_pose(self):
+        film = glim.render(GEMS, size=(32, 24), spp=1, **glim.look_at((0, 1, 4), (0, 1, 0)))
+        np.testing.assert_allclose(film.camera.pose("gltf"), [[1, 0, 0, 0], [0, 1, 0, 1], [0, 0, 1, 4], [0, 0, 0, 1]], atol=1e-7)
+        (fx, _, cx), (_, fy, cy), _ = film.camera.K("corner")
+        self.assertEqual((fx, cx, cy), (fy, 16, 12))
+
+    def test_sees_a_point_where_K_and_pose_say(self):
+        film = glim.render(GEMS, camera=glim.Camera(self.K, origin="center", pose=self.POSE, axes="opencv", size=(32, 24)), spp=64)
+        x, y = 9, 15  # a wall, so that a pixel's nearest depth and its middle's are close
+        ray = np.linalg.inv(self.K) @ (x, y, 1) * film.depth[y, x]
+        place = self.POSE[:, :3] @ ray + self.POSE[:, 3]
+        self.assertAlmostEqual(place[0], -1, delta=.02)  # the red wall
+
+    def test_may_be_round_or_all_around(self):
+        fisheye = glim.render(GEMS, spp=1, camera=glim.Camera(self.K, origin="corner", fisheye=(0, 0, 0, 0), size=(32, 24)))
+        self.assertEqual((fisheye.camera.fisheye, fisheye.width), ([0, 0, 0, 0], 32))
+        around = glim.render(GEMS, spp=1, camera=glim.Camera(equirectangular=True), size=(64, 32))
+        self.assertTrue(around.camera.equirectangular)
+        self.assertIsNone(around.camera.K("corner"))
+
+    def test_is_never_guessed(self):
+        for arguments in ({"K": self.K}, {"pose": self.POSE}, {"K": self.K, "origin": "opencv"}, {"pose": self.POSE, "axes": "blender"},
+                          {"K": np.eye(4), "origin": "corner"}, {"K": [[1, 1, 0], [0, 1, 0], [0, 0, 1]], "origin": "corner"},
+                          {"distortion": (1, 2, 3)}, {"fisheye": "wide"}, {"pose": [1, 2, 3], "axes": "gltf"}):
+            with self.assertRaises(glim.InputError, msg=arguments):
+                glim.Camera(**arguments)
+        with self.assertRaisesRegex(glim.InputError, "pose_gltf"):
+            glim.render(GEMS, spp=1, camera=glim.Camera(pose=2 * self.POSE, axes="opencv"))
+
+
 class UseTest(PythonCase):
     def test_edits(self):
         """scene.set and the option are one, and None takes a change back."""

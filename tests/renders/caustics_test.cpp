@@ -110,6 +110,15 @@ Variant changed(Variant v, std::function<void(Scene&)> change)
     return v;
 }
 
+// Amid the balls.
+Variant projected(const Projection& projection)
+{
+    return changed(balls(), [projection](Scene& scene) {
+        scene.cameras.front().position = {0.0F, 0.2F, 1.8F};
+        scene.cameras.front().projection = projection;
+    });
+}
+
 const NamedVariant kVariants[] = {
     {"balls", [] { return balls(); }},
     {"mirrorQuad",
@@ -278,6 +287,20 @@ const NamedVariant kVariants[] = {
          v.builder.sphere({0.1F, -0.6F, 0.3F}, 1.6F, v.builder.add(plastic(0.7F)));
          v.change = [](Scene& scene) { scene.cameras.front().position = {0.1F, -0.1F, 1.5F}; };
          return v;
+     }},
+    // Cameras whose projection is not linear.
+    {"barrel",
+     [] {
+         return projected({Projection::Model::RadialTangential, std::nullopt, {0.2, -0.1}, {-0.2, 0.05, 0.01, -0.02}});
+     }},
+    {"fisheye",
+     [] {
+         const Intrinsics wide{{9.0, 10.0}, {14.0, 17.0}, {32.0, 32.0}};
+         return projected({Projection::Model::Fisheye, wide, {}, {0.05, -0.02}});
+     }},
+    {"equirectangular",
+     [] {
+         return projected({Projection::Model::Equirectangular, std::nullopt, {}, {}});
      }},
     {"threeBounces",
      [] {

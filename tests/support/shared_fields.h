@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 420u;
+GLIM_CONST uint kSharedWords = 434u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -86,7 +86,10 @@ U(pass_.pass.bounce) U(pass_.pass.accumulate) U(pass_.pass.round) U(pass_.lightR
 U(pass_.lightRound.lightSamples) U(pass_.lightRound.addsEmission) U(pass_.lightRound.firstRef) U(pass_.lightRound.endRef)
 F3(parameters.camera.position) F3(parameters.camera.right) F3(parameters.camera.up) F3(parameters.camera.forward)
 U(parameters.camera.kind) F3(parameters.camera.lensRight) F3(parameters.camera.lensUp) F(parameters.camera.inverseFocus)
-U(parameters.camera.media)
+U(parameters.camera.media) U(parameters.camera.projection.model)
+F2(parameters.camera.projection.shift) F2(parameters.camera.projection.scale)
+F3(parameters.camera.projection.radial) F(parameters.camera.projection.radial.w) F2(parameters.camera.projection.radial2)
+F2(parameters.camera.projection.tangential) F(parameters.camera.projection.end)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRef) U(parameters.firstUv) U(parameters.firstTangent)

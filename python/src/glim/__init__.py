@@ -16,10 +16,11 @@ import threading
 import warnings
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
+from glim._camera import Camera
 from glim._errors import DeviceError, GlimWarning, InputError, unusable
 from glim._options import in_python, path_of, values_of
 
-__all__ = ["DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
+__all__ = ["Camera", "DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
 
 Path = Union[str, "os.PathLike[str]"]
 Progress = Callable[[int, int, float], Any]
@@ -214,6 +215,17 @@ class Film:
     def settings(self) -> str:
         """The options that decide a sample, as in "seed=0 bounces=64 sampler=sobol"."""
         return self._native.settings
+
+    @property
+    def camera(self) -> Optional[Camera]:
+        """The camera, with the K and the pose that it had, or None of films of earlier versions. Scene.render(camera=film.camera,
+        size=(film.width, film.height)) draws the same view, unless it is orthographic."""
+        return Camera._of_film(self._native.camera)[0]
+
+    @property
+    def time(self) -> Optional[float]:
+        """Seconds of the file's animation; None in its rest pose."""
+        return Camera._of_film(self._native.camera)[1]
 
     @property
     def digest(self) -> str:

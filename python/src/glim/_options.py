@@ -3,6 +3,7 @@
 import os
 import re
 
+from glim._camera import Camera
 from glim._errors import InputError, unusable
 
 
@@ -20,6 +21,9 @@ def path_of(value, what):
 
 def values_of(options):
     """{"spp": 16, "size": (640, 480), "scene": None} -> {"spp": 16, "size": [640, 480]}. Texts become bytes, as names of files are."""
+    if isinstance(options.get("camera"), Camera):
+        given = {name: value for name, value in options.items() if name != "camera" and value is not None}
+        options = {**options["camera"].options(), **given}
     values = {}
     for name, value in options.items():
         if name in ("help", "help_all", "output", "file") or not re.fullmatch("[a-z][a-z_]*", name):
