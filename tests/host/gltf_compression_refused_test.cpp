@@ -75,7 +75,7 @@ TEST(GltfCompressionRefused, ClaimsOfMoreMemoryThanTheStreamCanFill)
     claims.document["accessors"][4]["count"] = 2'147'483'646;
     claims.addNode({{"mesh", claims.addMesh(primitive)}});
     expectRefused(claims, MessageId::TooLarge,
-                  {.place = "bufferViews[1] (KHR_draco_mesh_compression of meshes[0].primitives[0])", .value = "2147483646"},
+                  {.place = "bufferViews[1] (KHR_draco_mesh_compression of meshes[0].primitives[0])", .value = "2147483790"},
                   litByTheSky());
 }
 

@@ -244,6 +244,15 @@ double computeDuration(const GltfFile& file, std::size_t animation)
 
 void animateGltf(GltfFile& file, std::size_t animation, double seconds, Warnings& warnings)
 {
+    const GltfAnimation& source = file.animations[animation];
+    std::uint64_t unbacked = 0;
+    for (const GltfAnimation::Channel& channel : source.channels) {
+        if (channel.sampler < source.samplers.size()) {
+            const GltfAnimation::Sampler& sampler = source.samplers[channel.sampler];
+            unbacked += countUnbacked(file, sampler.input) + countUnbacked(file, sampler.output);
+        }
+    }
+    checkUnbacked(file, part::place(label("animations", animation, source.name) + ".channels"), unbacked);
     Animator animator(file, animation, warnings);
     for (std::size_t i = 0; i < file.animations[animation].channels.size(); ++i) {
         animator.apply(i, seconds);

@@ -1,10 +1,13 @@
 #include "host/scene/gltf/read_geometry.hpp"
 
 #include "host/memory.hpp"
+#include "host/scene/gltf/read_accessor.hpp"
 #include "host/scene/share_meshes.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
+#include <compare>
+#include <set>
 
 namespace glim {
 namespace {
@@ -13,9 +16,8 @@ namespace {
 // A light is a point that emits.
 constexpr std::uint64_t kBytesPerTriangle = 200, kBytesPerVertex = 24, kBytesPerInstance = 400, kBytesPerPoint = 90, kBytesPerLight = 200;
 
-// Elements of accessors without a bufferView cost a file nothing, and any number of primitives may use the same ones. So many are never too
-// many; beyond, files that leave out zeros, as of morph targets, have vertices that are there. An instance counts as many vertices.
-constexpr std::uint64_t kFewUnbacked = std::uint64_t{1} << 22U, kUnbackedPerByte = 16, kVerticesPerInstance = 16;
+// How many elements an instance, and a matrix of a skin, count as where the file's own bytes do not hold them.
+constexpr std::uint64_t kElementsPerInstance = 16, kElementsPerMatrix = 4;
 
 bool mayEmit(const GltfFile& file, const tinygltf::Primitive& primitive)
 {
@@ -49,63 +51,70 @@ PrimitiveSize sizeOf(const GltfFile& file, const tinygltf::Primitive& primitive)
     }
 }
 
-std::uint64_t countUnbacked(const GltfFile& file, int accessor)
+// Targets of weight 0 are not read.
+std::uint64_t countUnbacked(const GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights)
 {
-    const tinygltf::Accessor& source = file.model.accessors[static_cast<std::size_t>(accessor)];
-    return source.bufferView < 0 ? source.count : 0;
-}
-
-std::uint64_t countUnbacked(const GltfFile& file, const tinygltf::Primitive& primitive)
-{
-    std::uint64_t count = primitive.indices >= 0 ? countUnbacked(file, primitive.indices) : 0;
+    const auto count = [&file](int accessor) { return countUnbacked(file, static_cast<std::size_t>(accessor)); };
+    std::uint64_t sum = primitive.indices >= 0 ? count(primitive.indices) : 0;
     for (const auto& [name, accessor] : primitive.attributes) {
-        count += countUnbacked(file, accessor);
+        sum += count(accessor);
     }
-    for (const auto& target : primitive.targets) {
-        for (const auto& [name, accessor] : target) {
-            count += countUnbacked(file, accessor);
+    for (std::size_t i = 0; i < std::min(primitive.targets.size(), weights.size()); ++i) {
+        for (const auto& [name, accessor] : primitive.targets[i]) {
+            sum += weights[i] == 0.0 ? 0 : count(accessor);
         }
     }
-    return count;
+    return sum;
 }
 
-// Refuses a file that would take far more memory than it has bytes, before anything is read.
-void checkUnbacked(const GltfFile& file, const std::vector<std::uint64_t>& instancesOf, std::uint64_t unbackedInstances)
+// A mesh is read once for each skin and each set of weights.
+struct Reading {
+    std::size_t mesh;
+    int skin;
+    std::vector<double> weights;
+
+    auto operator<=>(const Reading&) const = default;
+};
+
+std::uint64_t countUnbacked(const GltfFile& file, const Reading& reading)
 {
-    std::uint64_t unbacked = kVerticesPerInstance * unbackedInstances;
-    for (std::size_t mesh = 0; mesh < instancesOf.size(); ++mesh) {
-        for (const tinygltf::Primitive& primitive : file.model.meshes[mesh].primitives) {
-            unbacked += instancesOf[mesh] > 0 ? countUnbacked(file, primitive) : 0;
-        }
+    std::uint64_t sum = 0;
+    for (const tinygltf::Primitive& primitive : file.model.meshes[reading.mesh].primitives) {
+        sum += countUnbacked(file, primitive, reading.weights);
     }
-    if (const std::uint64_t most = kFewUnbacked + kUnbackedPerByte * countBytes(file.buffers); unbacked > most) {
-        refuse(file, MessageId::TooLarge,
-               {"its primitives and instances use ", part::value(std::to_string(unbacked)),
-                " elements of accessors without a bufferView, an instance as ", std::to_string(kVerticesPerInstance), "; expected ",
-                part::expected("at most " + std::to_string(most) + " in a file of this size")});
-    }
+    const std::optional<std::size_t> matrices =
+        reading.skin >= 0 ? file.skins[static_cast<std::size_t>(reading.skin)].inverseBindMatrices : std::nullopt;
+    return sum + (matrices ? kElementsPerMatrix * countUnbacked(file, *matrices) : 0);
 }
 
 }  // namespace
 
 void checkSize(const GltfFile& file, const std::vector<PlacedNode>& nodes)
 {
-    std::vector<std::uint64_t> instancesOf(file.model.meshes.size(), 0);
-    std::uint64_t unbackedInstances = 0;
+    std::vector<std::uint64_t> instancesOf(file.model.meshes.size(), 0), readingsOf(instancesOf);
+    std::set<Reading> readings;
+    std::uint64_t unbacked = 0;
     for (const PlacedNode& node : nodes) {
-        if (const int mesh = file.model.nodes[node.index].mesh; mesh >= 0 && node.visible) {
-            instancesOf[static_cast<std::size_t>(mesh)] += countInstances(file, node.index);
-            unbackedInstances += countUnbackedInstances(file, node.index);
+        const tinygltf::Node& source = file.model.nodes[node.index];
+        if (source.mesh < 0 || !node.visible) {
+            continue;
+        }
+        const auto mesh = static_cast<std::size_t>(source.mesh);
+        instancesOf[mesh] += countInstances(file, node.index);
+        unbacked += kElementsPerInstance * countUnbackedInstances(file, node.index);
+        if (const auto [reading, isNew] = readings.insert({mesh, source.skin, readMorphWeights(file, node.index)}); isNew) {
+            ++readingsOf[mesh];
+            unbacked += countUnbacked(file, *reading);
         }
     }
-    checkUnbacked(file, instancesOf, unbackedInstances);
+    checkUnbacked(file, "its meshes, and its instances as " + std::to_string(kElementsPerInstance) + " each,", unbacked);
     std::vector<MeshUse> uses;  // by primitive
     std::uint64_t vertices = 0, points = 0, lights = 0, instances = 0;
     for (std::size_t mesh = 0; mesh < instancesOf.size(); ++mesh) {
         for (const tinygltf::Primitive& primitive : file.model.meshes[mesh].primitives) {
             const PrimitiveSize size = sizeOf(file, primitive);
             uses.push_back({instancesOf[mesh], size.triangles, mayEmit(file, primitive)});
-            vertices += instancesOf[mesh] > 0 ? size.vertices : 0;
+            vertices += readingsOf[mesh] * size.vertices;
             points += instancesOf[mesh] * size.points;
             lights += mayEmit(file, primitive) && primitive.mode == TINYGLTF_MODE_POINTS ? instancesOf[mesh] * size.points : 0;
             instances += instancesOf[mesh];

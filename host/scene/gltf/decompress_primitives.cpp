@@ -1,6 +1,7 @@
 #include "host/error.hpp"
 #include "host/memory.hpp"
 #include "host/scene/gltf/decompress.hpp"
+#include "host/scene/gltf/read_accessor.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,10 +21,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
-
-// So few indices are never too many, however short their stream. Draco's streams have no limit of their own: a flat grid takes one byte for
-// 33 indices, but one for 1500 if its steps are whole steps of its quantization.
-constexpr std::uint64_t kFewElements = std::uint64_t{1} << 22U;
 
 // No container of a right stream needs more bytes: four components of 4 bytes for each corner, in a vector that has doubled, or the lists
 // of a small mesh. Wrong streams ask for 2^31 orientations of texture coordinates, of which a few bytes give any number in some seconds.
@@ -107,11 +104,11 @@ bool appendValues(const draco::PointAttribute& attribute, int componentType, std
 
 class PrimitiveDecoder {
 public:
-    PrimitiveDecoder(const std::string& path, json& document, Buffers& buffers)
+    PrimitiveDecoder(const std::string& path, json& document, std::uint64_t ownBytes, Buffers& buffers)
         : path_(path),
           document_(document),
           buffers_(buffers),
-          room_(kFewElements + kMaxCompression * countBytes(buffers))
+          room_(countMostUnbacked(ownBytes))
     {}
 
     // `place` names the primitive in messages.
@@ -125,7 +122,8 @@ public:
                 {part::place(place_), " belongs to a primitive that is no ", part::expected("indexed triangle list"), "; expected one"});
         const std::span<const unsigned char> bytes =
             findBytes(path_, buffers_, getRange(document_["bufferViews"][view]), "bufferViews[" + std::to_string(view) + "]");
-        const std::unique_ptr<draco::Mesh> mesh = decodeMesh(bytes, accessorOf(primitive["indices"])["count"].get<std::uint64_t>());
+        takeRoom(primitive, source["attributes"]);
+        const std::unique_ptr<draco::Mesh> mesh = decodeMesh(bytes, countElements(primitive["indices"]));
 
         std::vector<unsigned char> decoded;
         const std::size_t newView = document_["bufferViews"].size();
@@ -150,6 +148,21 @@ private:
 
     const json& accessorOf(const json& index) const { return document_["accessors"][index.get<std::size_t>()]; }
 
+    std::uint64_t countElements(const json& index) const { return accessorOf(index)["count"].get<std::uint64_t>(); }
+
+    // Any number of primitives may name the same stream, and any number of attributes of a primitive the same one of its stream.
+    void takeRoom(const json& primitive, const json& compressed)
+    {
+        std::uint64_t elements = countElements(primitive["indices"]);
+        for (const auto& [name, accessor] : primitive["attributes"].items()) {
+            elements += compressed.contains(name) ? countElements(accessor) : 0;
+        }
+        require(elements <= room_, MessageId::TooLarge,
+                {part::place(place_), " claims ", part::value(std::to_string(elements)), " elements; expected ",
+                 part::expected("at most the " + std::to_string(room_) + " that are left for a file of this size")});
+        room_ -= elements;
+    }
+
     std::unique_ptr<draco::Mesh> decodeMesh(std::span<const unsigned char> bytes, std::uint64_t indexCount)
     {
         const std::optional<std::uint32_t> faces = readFaceCount(bytes);
@@ -159,13 +172,6 @@ private:
         require(std::uint64_t{3} * *faces == indexCount, MessageId::Mismatch,
                 {part::place(place_), " holds ", part::value(std::to_string(*faces)), " triangles; expected ",
                  part::expected("a third of the " + std::to_string(indexCount) + " indices of its accessor")});
-        require(indexCount <= std::max(kFewElements, kMaxCompression * bytes.size()), MessageId::TooLarge,
-                {part::place(place_), " claims ", part::value(std::to_string(indexCount)), " indices in ", std::to_string(bytes.size()),
-                 " bytes; expected ", part::expected("fewer")});
-        require(indexCount <= room_, MessageId::TooLarge,
-                {part::place(place_), " claims ", part::value(std::to_string(indexCount)), " indices; expected ",
-                 part::expected("at most the " + std::to_string(room_) + " that are left for a file of this size")});
-        room_ -= indexCount;
         draco::StatusOr<std::unique_ptr<draco::Mesh>> mesh = decodeStream(bytes, indexCount);
         require(mesh.ok(), MessageId::FileDamaged,
                 {part::place(place_), " is damaged (", mesh.status().error_msg_string(), "); expected ", part::expected("a Draco mesh")});
@@ -220,15 +226,17 @@ private:
     const std::string& path_;
     json& document_;
     Buffers& buffers_;
-    std::uint64_t room_;  // indices that primitives may still claim: many may name the same stream
+    // Elements that primitives may still claim. The streams have no limit of their own: a flat grid takes one byte for 33 indices, but one
+    // for 1500 if its steps are whole steps of its quantization.
+    std::uint64_t room_;
     std::string place_;
 };
 
 }  // namespace
 
-void decompressPrimitives(const std::string& path, json& document, Buffers& buffers)
+void decompressPrimitives(const std::string& path, json& document, std::uint64_t ownBytes, Buffers& buffers)
 {
-    PrimitiveDecoder decoder(path, document, buffers);
+    PrimitiveDecoder decoder(path, document, ownBytes, buffers);
     json none = json::array();
     json& meshes = document.contains("meshes") ? document["meshes"] : none;
     for (std::size_t i = 0; i < meshes.size(); ++i) {

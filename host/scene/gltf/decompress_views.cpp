@@ -12,6 +12,10 @@ namespace {
 
 using nlohmann::json;
 
+// More bytes than this for each compressed one are refused before memory is asked for them. The bitstreams cannot reach more than 64 (the
+// first one) or 1024 (the second, where two bits can stand for 256 bytes).
+constexpr std::uint64_t kMaxCompression = 1024;
+
 // What the views of a file may hold together. So many bytes are never too many; beyond, a file of zeros in version 0 of attributes has 64
 // for each of its own. Version 1 could make a gigabyte of a megabyte, but only of elements that are all the same.
 constexpr std::uint64_t kFewBytes = std::uint64_t{1} << 26U, kDecodedPerByte = 64;
@@ -108,11 +112,11 @@ private:
 
 }  // namespace
 
-void decompressViews(const std::string& path, json& document, Buffers& buffers)
+void decompressViews(const std::string& path, json& document, std::uint64_t ownBytes, Buffers& buffers)
 {
     json none = json::array();
     json& views = document.contains("bufferViews") ? document["bufferViews"] : none;
-    std::uint64_t room = kFewBytes + kDecodedPerByte * countBytes(buffers);  // views may overlap
+    std::uint64_t room = kFewBytes + kDecodedPerByte * ownBytes;  // views may overlap
     for (std::size_t i = 0; i < views.size(); ++i) {
         json& view = views[i];
         for (const std::string name : kMeshoptExtensions) {

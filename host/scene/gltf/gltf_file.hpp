@@ -68,6 +68,8 @@ struct GltfFile {
     std::shared_ptr<const nlohmann::json> document;  // of an animated file: what the model was parsed from
     std::shared_ptr<const nlohmann::json> original;  // of a file with edits: its checked JSON, without them, and with what is compressed
     Buffers buffers;                                 // the file's, each at least as long as its byteLength, then what was decompressed
+    std::size_t ownBuffers = 0;                      // how many are the file's
+    std::uint64_t ownBytes = 0;                      // in them and in the JSON
     std::vector<EncodedImage> images;
     std::vector<GltfTexture> textures;
     std::vector<GltfSkin> skins;
@@ -90,7 +92,6 @@ std::filesystem::path externalFile(const std::string& path, const std::string& u
 // Refuses a uri that points out of the folder of the glTF file, links followed.
 void refuseOutside(const std::string& path, const std::string& place, const std::string& uri);
 
-std::uint64_t countBytes(const Buffers& buffers);
 // What an object with `buffer`, `byteOffset` and `byteLength` names.
 BufferRange getRange(const nlohmann::json& view);
 // Refuses a range that ends past its buffer. `place` names what has the range.

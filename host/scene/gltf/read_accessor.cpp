@@ -16,6 +16,10 @@ static_assert(std::endian::native == std::endian::little, "glTF buffers are litt
 // An accessor without bufferView is all zeros, so a short file could claim any amount of memory.
 constexpr std::size_t kMaxUnbackedElements = std::size_t{1} << 22U;
 
+// Any number of primitives may use the same elements. So many are never too many; beyond, a file has at most as many as 64 bytes for each
+// of its own hold in components of 4 bytes. Khronos' duck in Draco has 1.9.
+constexpr std::uint64_t kFewUnbacked = std::uint64_t{1} << 23U, kUnbackedPerByte = 16;
+
 struct Elements {
     const unsigned char* first;
     std::size_t stride;
@@ -331,6 +335,28 @@ std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor,
         return matrix;
     };
     return readElements<glm::dmat4>(file, accessor, 16, place, convert);
+}
+
+std::uint64_t countUnbacked(const GltfFile& file, std::size_t accessor)
+{
+    const tinygltf::Accessor& source = file.model.accessors[accessor];
+    const auto isOwn = [&file](int view) {
+        return view >= 0 && static_cast<std::size_t>(file.model.bufferViews[static_cast<std::size_t>(view)].buffer) < file.ownBuffers;
+    };
+    const auto& sparse = source.sparse;
+    const bool hasOwnSparse = !sparse.isSparse || (isOwn(sparse.indices.bufferView) && isOwn(sparse.values.bufferView));
+    return (isOwn(source.bufferView) ? 0 : source.count) + (hasOwnSparse ? 0 : static_cast<std::uint64_t>(sparse.count));
+}
+
+std::uint64_t countMostUnbacked(std::uint64_t ownBytes) { return kFewUnbacked + kUnbackedPerByte * ownBytes; }
+
+void checkUnbacked(const GltfFile& file, const MessagePart& user, std::uint64_t count)
+{
+    if (const std::uint64_t most = countMostUnbacked(file.ownBytes); count > most) {
+        refuse(file, MessageId::TooLarge,
+               {user, " read ", part::value(std::to_string(count)), " elements that are compressed or have no bufferView; expected ",
+                part::expected("at most " + std::to_string(most) + " in a file of this size")});
+    }
 }
 
 }  // namespace glim

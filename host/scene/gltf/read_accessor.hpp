@@ -29,4 +29,13 @@ std::vector<glm::dmat4> readMatrices(const GltfFile& file, std::size_t accessor,
 
 std::vector<std::uint32_t> readIndices(const GltfFile& file, std::size_t accessor, const std::string& use);
 
+// Elements that the file's own bytes do not hold: they are zeros, or compressed. Whoever names them again reads them again.
+std::uint64_t countUnbacked(const GltfFile& file, std::size_t accessor);
+
+// How many of them a file of so many bytes may use.
+std::uint64_t countMostUnbacked(std::uint64_t ownBytes);
+
+// Refuses more, before they are read. `user` says what reads them, in the plural.
+void checkUnbacked(const GltfFile& file, const MessagePart& user, std::uint64_t count);
+
 }  // namespace glim

@@ -51,7 +51,7 @@ std::vector<Mesh> readMeshes(const GltfFile& file, std::size_t mesh, const MeshP
 // EXT_mesh_gpu_instancing: how many instances of its mesh the node has, without reading them.
 std::uint64_t countInstances(const GltfFile& file, std::size_t node);
 
-// The same where no attribute has a bufferView, else 0.
+// The same where the file's own bytes hold none of its attributes, else 0.
 std::uint64_t countUnbackedInstances(const GltfFile& file, std::size_t node);
 
 // Where the node's instances stand, in the node's own space: one identity without the extension. Refuses attributes of different counts and

@@ -375,8 +375,11 @@ GltfFile readGltfFile(const std::filesystem::path& file, bool confined)
     result.path = path;
     result.buffers = readBuffers(path, document, container);
     result.files = listFiles(path, document);
-    decompressViews(path, document, result.buffers);
-    decompressPrimitives(path, document, result.buffers);
+    result.ownBuffers = result.buffers.size();
+    result.ownBytes = std::accumulate(result.buffers.begin(), result.buffers.end(), std::uint64_t{container.json.size()},
+                                      [](std::uint64_t sum, const std::vector<unsigned char>& buffer) { return sum + buffer.size(); });
+    decompressViews(path, document, result.ownBytes, result.buffers);
+    decompressPrimitives(path, document, result.ownBytes, result.buffers);
     warnOfSamplers(document, result.warnings);
     result.images = listImages(document);
     result.textures = listTextures(document);
@@ -418,12 +421,6 @@ void refuseOutside(const std::string& path, const std::string& place, const std:
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri, std::uint64_t most)
 {
     return isDataUri(uri) ? decodeDataUri(path, place, uri) : readExternal(path, place, uri, most);
-}
-
-std::uint64_t countBytes(const Buffers& buffers)
-{
-    return std::accumulate(buffers.begin(), buffers.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const std::vector<unsigned char>& buffer) { return sum + buffer.size(); });
 }
 
 BufferRange getRange(const json& view)

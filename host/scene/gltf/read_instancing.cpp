@@ -70,11 +70,10 @@ std::uint64_t countUnbackedInstances(const GltfFile& file, std::size_t node)
     std::uint64_t count = 0;
     for (const char* attribute : kAttributes) {
         if (const std::optional<std::size_t> accessor = findAttribute(file, node, attribute)) {
-            const tinygltf::Accessor& source = file.model.accessors[*accessor];
-            if (source.bufferView >= 0) {
+            count = countUnbacked(file, *accessor);
+            if (count == 0) {
                 return 0;
             }
-            count = source.count;
         }
     }
     return count;
