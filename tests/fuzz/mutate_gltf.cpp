@@ -321,11 +321,49 @@ void mutateText(Document& document, Choice& choice)
     document.text = tree.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+// Where the document says that parts of the binary chunk are: views, and what stands compressed for one.
+std::vector<std::pair<std::size_t, std::size_t>> listRanges(const json& document)
+{
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    const auto add = [&ranges](const json& view) {
+        const json offset = view.is_object() ? view.value("byteOffset", json(0U)) : json();
+        const json length = view.is_object() ? view.value("byteLength", json()) : json();
+        if (offset.is_number_unsigned() && length.is_number_unsigned()) {
+            ranges.emplace_back(offset.get<std::size_t>(), length.get<std::size_t>());
+        }
+    };
+    const json views = document.is_object() ? document.value("bufferViews", json()) : json();
+    for (const json& view : views) {
+        add(view);
+        const json extensions = view.is_object() ? view.value("extensions", json()) : json();
+        for (const json& extension : extensions) {
+            add(extension);
+        }
+    }
+    return ranges;
+}
+
+// Most mutants change the bytes of one view and move no others, so that what is compressed elsewhere stays right.
+void mutateBinary(Document& document, Choice& choice)
+{
+    const std::vector<std::pair<std::size_t, std::size_t>> ranges = listRanges(parseTree(document.text));
+    const auto [offset, length] = ranges.empty() ? std::pair(std::size_t{0}, std::size_t{0}) : choice.of(ranges);
+    if (offset >= document.binary.size() || length == 0 || choice.oneIn(8)) {
+        mutateBytes(document.binary, 64);
+        return;
+    }
+    std::string part = document.binary.substr(offset, length);
+    const std::size_t size = part.size();
+    mutateBytes(part, 0);
+    part.resize(size);
+    document.binary.replace(offset, size, part);
+}
+
 std::string mutateInput(const std::string& input, Choice& choice)
 {
     Document document = parse(input);
-    if (!document.binary.empty() && choice.oneIn(5)) {
-        mutateBytes(document.binary, 64);
+    if (!document.binary.empty() && choice.oneIn(3)) {
+        mutateBinary(document, choice);
     } else {
         mutateText(document, choice);
     }

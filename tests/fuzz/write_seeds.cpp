@@ -1,6 +1,8 @@
 // Writes the first inputs of each target: write_seeds FOLDER. Fuzzing grows the corpus from these and from scenes/.
 #include "host/image/exr.hpp"
 #include "host/render/film_file.hpp"
+#include "host/scene/gltf/gltf_container.hpp"
+#include "places.h"
 #include "shaders/shared/limits.h"
 #include "tests/support/compress_geometry.hpp"
 #include "tests/support/encode_images.hpp"
@@ -114,8 +116,44 @@ GltfBuilder clouds()
     return builder;
 }
 
+// Filters of meshopt, on streams of version 0; gltfpack.glb has those that it writes.
+GltfBuilder filtered()
+{
+    GltfBuilder builder = build(makeHills(3), meshopt("TRIANGLES"));
+    json& views = builder.document["bufferViews"];
+    for (json& view : views) {
+        if (view.contains("extensions")) {
+            json& source = view["extensions"]["EXT_meshopt_compression"];
+            const int stride = source["byteStride"];
+            source["filter"] = source["mode"] != "ATTRIBUTES" ? "NONE" : stride == 4 ? "COLOR" : stride == 8 ? "QUATERNION" : "EXPONENTIAL";
+        }
+    }
+    return builder;
+}
+
+// Streams of both versions by the current encoder, each in a file of its own.
+void writeStreams(const fs::path& folder)
+{
+    const std::string path = GLIM_SOURCE_DIR "/tests/host/meshopt/streams.glb";
+    const GltfContainer container = openContainer(path);
+    const Bytes binary = readBytes(path, container.binary->size, container.binary->begin);
+    const json document = json::parse(container.json);
+    std::size_t count = 0;
+    for (const json& view : document["bufferViews"]) {
+        const json extensions = view.value("extensions", json::object());
+        for (const auto& [name, source] : extensions.items()) {
+            GltfBuilder builder = oneTriangle();
+            const auto first = binary.begin() + source["byteOffset"].get<std::ptrdiff_t>();
+            const Bytes stream(first, first + source["byteLength"].get<std::ptrdiff_t>());
+            addMeshoptView(builder, stream, {name, source["mode"], source.value("filter", "NONE"), source["byteStride"], source["count"]});
+            writeFile(folder / ("stream_" + std::to_string(count++) + ".glb"), builder.toGlb());
+        }
+    }
+}
+
 void writeScenes(const fs::path& folder)
 {
+    writeStreams(folder);
     const std::pair<const char*, GltfBuilder> scenes[] = {
         {"textured", textured()},
         {"lit", lit()},
@@ -126,6 +164,7 @@ void writeScenes(const fs::path& folder)
         {"draco_sequential", build(makeHills(3), draco({false, 8, true}))},
         {"meshopt", build(makeHills(3), meshopt("TRIANGLES"))},
         {"meshopt_indices", build(makeHills(3), meshopt("INDICES"))},
+        {"meshopt_filters", filtered()},
     };
     for (const auto& [name, builder] : scenes) {
         writeFile(folder / (std::string(name) + ".glb"), builder.toGlb());

@@ -8,11 +8,13 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "tools"))
 from conversion.smooth import dot  # noqa: E402
+from conversion.triangulate import triangulate  # noqa: E402
 from scene_makers import made_images as images  # noqa: E402
 from scene_makers.gltf_document import cross, subtract  # noqa: E402
 
@@ -154,6 +156,11 @@ class ToGltfTest(unittest.TestCase):
         self.expect_area(bent, 3.0, lambda x, y: (y, x, 0.01 * ((x * y) % 2)), 0.05)
         comb = [(x, 0) for x in range(9)] + [(8 - x, 1 + x % 2 * 5) for x in range(9)]
         self.expect_area(comb, 28.0)
+        points = [(k * math.cos(0.1 * k), k * math.sin(0.1 * k)) for k in range(20, 520)]
+        spiral = points + [(1.0005 * x, 1.0005 * y) for x, y in reversed(points)]
+        begin = time.process_time()
+        self.assertEqual(len(triangulate([(x, y, 0.0) for x, y in spiral])), len(spiral) - 2)
+        self.assertLess(time.process_time() - begin, 2.0)  # seconds; it was 11 when each cut looked at all corners again
         # A square hole that a bridge reaches, which the face passes twice; a corner in the middle of an edge.
         self.expect_area([(0, 0), (4, 0), (4, 4), (0, 4), (0, 0), (1, 1), (1, 3), (3, 3), (3, 1), (1, 1)], 12.0)
         self.expect_area([(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)], 4.0)

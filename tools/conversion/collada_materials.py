@@ -24,7 +24,8 @@ def course_technique(element):
 
 class ColladaMaterials:
     def __init__(self, path, root, dae, document, say):
-        self.path, self.root, self.dae, self.document, self.say = path, root, dae, document, say
+        self.path, self.dae, self.document, self.say = path, dae, document, say
+        self.effects = {e.get("id"): e for e in reversed(list(root.iter())) if tag_of(e) == "effect"}
         self.images = ImageEmbedder(document, say)
         self.written, self.radiances = {}, {}
 
@@ -61,7 +62,7 @@ class ColladaMaterials:
         instance = find(material, "instance_effect")
         if instance is None:
             raise ConversionError("%s: %s has no <instance_effect>; expected one" % (self.path, self.place))
-        effect = next(e for e in self.root.iter() if tag_of(e) == "effect" and e.get("id") == instance.get("url")[1:])
+        effect = self.effects[instance.get("url")[1:]]
         name = material.get("name") or material.get("id")
         technique = course_technique(effect)
         bsdfs = children(technique, *BSDFS) if technique is not None else []

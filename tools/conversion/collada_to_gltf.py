@@ -1,6 +1,8 @@
 """A Collada file as a glTF document: a node for each instance, in world space, y up. One with something of the course's profile is read as
 the programs of the course read it, any other one as Collada 1.4.1 says; main.py lists the differences."""
 
+import os
+
 import numpy
 
 from conversion.collada_cameras import write_camera
@@ -12,7 +14,8 @@ from conversion.collada_transforms import apply, from_rows, matrix_of, to_gltf
 from conversion.collada_xml import children, described, find, some_numbers, tag_of
 from conversion.read_collada import read_collada
 
-MOST_NODES = 200000  # those that instance others, which do so too, may be many more than the file has lines
+# Nodes that instance others, which do so too, may be many more than the file has bytes.
+FEW_NODES, BYTES_PER_NODE = 10000, 4
 MOST_LEVELS = 200
 # Turns of the up axis to y, as rows: Collada 1.4.1, section 5 (<up_axis>), and the course's.
 TURNS = {"Y_UP": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "X_UP": [[0, -1, 0], [1, 0, 0], [0, 0, 1]], "Z_UP": [[1, 0, 0], [0, 0, 1], [0, -1, 0]]}
@@ -24,7 +27,8 @@ class ColladaConverter:
         self.scene, self.document = scene, scene.document
         self.ids = {element.get("id"): element for element in reversed(list(scene.root.iter())) if element.get("id") is not None}
         self.geometries, self.cameras, self.lights = [], [], []
-        self.parts, self.meshes, self.visited = {}, {}, 0
+        self.parts, self.primitives, self.meshes, self.matrices = {}, {}, {}, {}
+        self.visited, self.most_nodes = 0, FEW_NODES + os.path.getsize(scene.path) // BYTES_PER_NODE
 
     def convert(self):
         root = self.ids[find(self.scene.root, "scene/instance_visual_scene").get("url")[1:]]
@@ -51,10 +55,13 @@ class ColladaConverter:
 
     def visit(self, node, matrix, level):
         self.visited += 1
-        if self.visited > MOST_NODES or level > MOST_LEVELS:
-            limit = "%d levels" % MOST_LEVELS if level > MOST_LEVELS else "%d nodes" % MOST_NODES
-            self.scene.refuse("its scene has more than %s of nodes at %s; expected none that instances itself" % (limit, described(node)))
-        matrix = matrix @ matrix_of(self.scene.path, node)
+        if self.visited > self.most_nodes or level > MOST_LEVELS:
+            limit = "%d levels of nodes" % MOST_LEVELS if level > MOST_LEVELS else "%d nodes" % self.most_nodes
+            self.scene.refuse("its scene has more than %s at %s; expected fewer in a file of this size, and no node that instances itself"
+                              % (limit, described(node)))
+        if node not in self.matrices:
+            self.matrices[node] = matrix_of(self.scene.path, node)
+        matrix = matrix @ self.matrices[node]
         name = node.get("name") or node.get("id") or "node"
         for element in node:
             tag, target = tag_of(element), self.ids.get(element.get("url", "#")[1:])
@@ -129,10 +136,15 @@ class ColladaConverter:
         box = box_of(apply(instance.matrix, numpy.concatenate([part.points for part in parts])))
         self.scene.shapes.append(Shape(box, map(self.scene.materials.radiance_of, materials)))
         if (key, *indices) not in self.meshes:
-            primitives = [self.document.primitive(part.points.tolist(), part.indices.tolist(), material, **part.attributes)
-                          for part, material in zip(parts, indices)]
+            primitives = [{**self.primitive(part), "material": material} for part, material in zip(parts, indices)]
             self.meshes[key, *indices] = self.document.mesh(*primitives)
         return {"mesh": self.meshes[key, *indices], "matrix": to_gltf(instance.matrix)}
+
+    def primitive(self, part):
+        """One part's, whatever its material: they share the data."""
+        if part not in self.primitives:
+            self.primitives[part] = self.document.primitive(part.points.tolist(), part.indices.tolist(), 0, **part.attributes)
+        return self.primitives[part]
 
 
 def collada_to_gltf(path, course, say):

@@ -1,5 +1,7 @@
 """Puts the files of pictures into a document."""
 
+import os
+
 MIMES = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg", b"RIFF": "image/webp"}
 
 
@@ -15,10 +17,12 @@ class ImageEmbedder:
 
     def embed(self, path, key):
         try:
+            if os.path.exists(path) and not os.path.isfile(path):
+                raise OSError(0, "it is no file")  # reading a device or a pipe may never end
             with open(path, "rb") as file:
                 content = file.read()
-        except OSError as error:
-            self.say("%s of a material is left out: %s cannot be read (%s)" % (key, path, error.strerror))
+        except (OSError, ValueError) as error:  # a name may hold what no file's name can
+            self.say("%s of a material is left out: %s cannot be read (%s)" % (key, path, getattr(error, "strerror", error)))
             return None
         mime = next((mime for magic, mime in MIMES.items() if content.startswith(magic)), None)
         if mime is None:

@@ -8,7 +8,7 @@ sys.dont_write_bytecode = True  # beside the sources it would look like a change
 sys.path[0] = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 
 from conversion.environment import Environment  # noqa: E402
-from conversion.errors import ConversionError  # noqa: E402
+from conversion.errors import ConversionError, as_line  # noqa: E402
 
 ENVIRONMENT = Environment("to_gltf", ["trimesh==5.2.0", "pycollada==0.9.3", "numpy"])
 
@@ -60,7 +60,7 @@ def convert(path, course):
 
 
 def say(text):
-    print("to_gltf: %s" % text, file=sys.stderr, flush=True)
+    print("to_gltf: %s" % as_line(text), file=sys.stderr, flush=True)
 
 
 def main():
@@ -70,7 +70,7 @@ def main():
             raise ConversionError("%s: there is no such file" % arguments.model)
         convert(arguments.model, arguments.course).write(arguments.output)
     except (ConversionError, OSError) as error:
-        sys.exit("to_gltf: %s" % error)
+        sys.exit("to_gltf: %s" % as_line(str(error)))
     except KeyboardInterrupt:
         sys.exit(130)
 

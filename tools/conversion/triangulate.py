@@ -21,7 +21,11 @@ class EarClipper:
         self.points = project(points)
         extent = max(max(p[a] for p in self.points) - min(p[a] for p in self.points) for a in range(2))
         self.rounding = ROUNDING * extent * extent
-        self.left = list(range(len(points)))
+        self.before = [i - 1 for i in range(len(points))]  # of what is left, the corner before each
+        self.before[0] = len(points) - 1
+        self.after = [*range(1, len(points)), 0]
+        self.others = {i for i in range(len(points)) if not self.is_convex(i)}
+        self.blockers = [{}, {}]  # by what counts as inside: what an ear was last seen to hold
 
     def area(self, a, b, c):
         """Twice that of the triangle of three corners; positive if they go round counter-clockwise."""
@@ -29,40 +33,55 @@ class EarClipper:
         return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
     def corner(self, i):
-        """The corner at a place in what is left, between its neighbours."""
-        return self.left[i - 1], self.left[i], self.left[(i + 1) % len(self.left)]
+        """With its neighbours."""
+        return self.before[i], i, self.after[i]
 
     def is_convex(self, i):
         return self.area(*self.corner(i)) > self.rounding
 
     def holds(self, a, b, c, p, slack):
-        return min(self.area(a, b, p), self.area(b, c, p), self.area(c, a, p)) >= slack
+        return self.area(a, b, p) >= slack and self.area(b, c, p) >= slack and self.area(c, a, p) >= slack
 
-    def is_ear(self, i, slack):
+    def is_ear(self, i, on_edges):
+        """Whether its triangle holds no other corner; `on_edges`: one may be on an edge."""
+        if i in self.others:
+            return False
+        blockers, slack = self.blockers[on_edges], self.rounding if on_edges else -self.rounding
+        if blockers.get(i) in self.others:
+            return False
         a, b, c = self.corner(i)
         ends = (self.points[a], self.points[b], self.points[c])
-        return self.is_convex(i) and not any(self.points[p] not in ends and self.holds(a, b, c, p, slack) for p in self.others)
+        blockers[i] = next((p for p in self.others if self.points[p] not in ends and self.holds(a, b, c, p, slack)), None)
+        return blockers[i] is None
 
-    def find_ear(self):
+    def find_ear(self, start, count):
         """A corner whose triangle holds no other one, else one that has them on its edges only, else any convex one, else any."""
-        self.others = [p for i, p in enumerate(self.left) if not self.is_convex(i)]
-        places = [(self.start + k) % len(self.left) for k in range(len(self.left))]
-        for good in (lambda i: self.is_ear(i, -self.rounding), lambda i: self.is_ear(i, self.rounding), self.is_convex):
-            found = next((i for i in places if good(i)), None)
-            if found is not None:
-                return found
-        return places[0]
+        for good in (lambda i: self.is_ear(i, False), lambda i: self.is_ear(i, True), lambda i: i not in self.others):
+            i = start
+            for _ in range(count):
+                if good(i):
+                    return i
+                i = self.after[i]
+        return start
+
+    def cut(self, i):
+        before, after = self.before[i], self.after[i]
+        self.after[before], self.before[after] = after, before
+        self.others.discard(i)
+        for neighbour in (before, after):
+            (self.others.discard if self.is_convex(neighbour) else self.others.add)(neighbour)
+            for blockers in self.blockers:
+                blockers.pop(neighbour, None)
+        return after
 
     def clip(self):
-        self.start = 1
-        while len(self.left) > 3:
-            ear = self.find_ear()
-            a, b, c = self.corner(ear)
-            if self.area(a, b, c) > self.rounding:
-                yield a, b, c
-            del self.left[ear]
-            self.start = ear % len(self.left)
-        yield tuple(self.left)
+        at = 1
+        for count in range(len(self.points), 3, -1):
+            ear = self.find_ear(at, count)
+            if self.area(*self.corner(ear)) > self.rounding:
+                yield self.corner(ear)
+            at = self.cut(ear)
+        yield tuple(sorted((self.before[at], at, self.after[at])))
 
 
 def is_convex(points):
