@@ -19,8 +19,9 @@ from scene_makers import made_images as images  # noqa: E402
 from scene_makers.collada_document import ColladaDocument, element, source  # noqa: E402
 
 MOST_BYTES, MOST_SECONDS = 16384, 1.0
-NUMBERS = ["0", "-1", "1", "2", "3", "0.5", "90", "180", "1e-30", "-1e30", "1e38", "1e39", "1e308", "1e309", "nan", "inf", "-inf", "4000000000",
-           "99999999999999999999", "0x10", "1_0", "", "x", "\u0663", "1 2", "0 0 0", "1 1 1 1", "0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15"]
+NUMBERS = ["0", "-1", "1", "2", "3", "0.5", "90", "180", "1e-30", "-1e30", "1e38", "1e39", "1e308", "1e309", "nan", "inf", "-inf",
+           "4000000000", "99999999999999999999", "0x10", "1_0", "", "x", "\u0663", "1 2", "0 0 0", "1 1 1 1",
+           "0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15"]
 TEXTS = ["Z_UP", "X_UP", "CGL", "CMU462", "VERTEX", "NORMAL", "TEXCOORD", "COLOR", "POSITION", "A_ONE", "RGB_ZERO", "common", "1.5.0", "#",
          "picture.png", "%00", "/dev", "file:///picture.png", "a\nb", "\u009b31m", "x" * 3000]
 
@@ -70,8 +71,9 @@ def make_seeds():
         dae.mesh("triangle", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[0, 0, 1]] * 3)
         dae.sphere("ball", 0.5)
         three = "0.2 0.4 0.8"
-        for name, bsdf in (("lamp", element("emission", element("radiance", "4 2 1"))), ("mirror", element("mirror", element("reflectance", three))),
-                           ("glass", element("glass", element("transmittance", three) + element("roughness", "0") + element("ior", "1.45"))),
+        glass = element("transmittance", three) + element("roughness", "0") + element("ior", "1.45")
+        for name, bsdf in (("lamp", element("emission", element("radiance", "4 2 1"))), ("glass", element("glass", glass)),
+                           ("mirror", element("mirror", element("reflectance", three))),
                            ("metal", element("microfacet", element("alpha", "0.1") + element("eta", three) + element("k", "3 2 1")))):
             dae.material(name, bsdf)
             dae.node(name, "geometry", "ball" if name != "lamp" else "triangle", material=name, transforms=element("translate", "0 0 2"))
@@ -115,7 +117,8 @@ class Mutator:
     def spoil(self, text):
         for _ in range(1 + self.below(3)):
             at, length = self.below(len(text)), self.below(20)
-            text = text[:at] + self.random.choice(["", "<", "&", ">", "\"", "\ufffe", "<!DOCTYPE a>", text[at:at + 3] * 3]) + text[at + length:]
+            put = self.random.choice(["", "<", "&", ">", "\"", "\ufffe", "<!DOCTYPE a>", text[at:at + 3] * 3])
+            text = text[:at] + put + text[at + length:]
         return text
 
     def edit(self, root):
@@ -222,7 +225,8 @@ def main():
     begin = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         converted = run(folder, runs, seed, found)
-    print("%d mutants, %d converted, %d broke the contract, %.0f s" % (runs, converted, sum(map(len, kinds.values())), time.monotonic() - begin))
+    broken, seconds = sum(map(len, kinds.values())), time.monotonic() - begin
+    print("%d mutants, %d converted, %d broke the contract, %.0f s" % (runs, converted, broken, seconds))
     sys.exit(1 if kinds else 0)
 
 

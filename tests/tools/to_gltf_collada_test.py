@@ -361,6 +361,14 @@ class ToGltfColladaTest(unittest.TestCase):
         self.assertEqual((paint["alphaMode"], paint["doubleSided"], paint["emissiveFactor"]), ("BLEND", True, [0.25, 0.5, 1.0]))
         self.assertEqual(paint["extensions"]["KHR_materials_emissive_strength"], {"emissiveStrength": 4.0})
 
+    def test_opacity_that_is_no_number(self):
+        number, color = element("float", "0.5"), element("color", "1 1 1 0.5")
+        for clear, share, alpha in ((color, number, 0.25), (color, color, 0.5), (number, number, 1.0)):
+            dae = one_triangle()
+            dae.material("paint", common=element("phong", element("transparent", clear, opaque="A_ONE") + element("transparency", share)))
+            dae.node("painted", "geometry", "triangle", material="paint")
+            self.assertEqual(self.convert(dae).json["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"][3], alpha)
+
     def test_area_lights(self):
         dae = one_triangle("Z_UP")
         dae.area_light("lamp", [4, 2, 1])

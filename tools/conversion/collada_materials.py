@@ -107,9 +107,9 @@ class ColladaMaterials:
 
     def alpha(self, effect):
         """A_ONE and RGB_ZERO of Collada 1.4.1, section 7 (<transparent>). Writers that leave 0 opacity mean opaque."""
-        if effect.transparent is None or isinstance(effect.transparent, collada.material.Map):
+        if not isinstance(effect.transparent, (tuple, list)) or len(effect.transparent) < 3:
             return 1.0
-        share = 1.0 if effect.transparency is None else effect.transparency
+        share = effect.transparency if isinstance(effect.transparency, float) else 1.0
         red, green, blue, opacity = [*effect.transparent, 1.0][:4]
         alpha = opacity * share
         if effect.opaque_mode == collada.material.OPAQUE_MODE.RGB_ZERO:
