@@ -60,6 +60,12 @@ set(onlyInCi
     SharedMeshesTest.LookLikeFlattenedOnes
     SharedMeshesTest.MoveInARefittedTree
     SharedMeshesTest.DoNotDependOnTheTreeOrTheSchedule
+    PointsTest.TheirColoursMultiplyTheBaseColour
+    PointsTest.ThoseThatEmitAreSphereLights
+    PointsTest.SpheresBesideColouredTrianglesStayWhite
+    LinesTest.ALineInPartsIsTheWholeLine
+    LinesTest.TheirColoursAreThoseOfTheMaterial
+    LinesTest.ThoseThatEmitShineAsSphereLightsDo
     # Many films whose errors are compared with what films say of them. By default: the same statistics from made-up numbers (host/).
     Samplers/ErrorEstimateTest.*
     ErrorEstimateBlocksTest.*

@@ -310,6 +310,8 @@ DecodedImage decodeWebp(Bytes bytes)
 bool isPng(Bytes bytes) { return startsWith(bytes, "\x89PNG\r\n\x1a\n"); }
 bool isJpeg(Bytes bytes) { return startsWith(bytes, "\xff\xd8\xff"); }
 bool isWebp(Bytes bytes) { return startsWith(bytes, "RIFF") && startsWith(bytes, "WEBP", 8); }
+bool isAvif(Bytes bytes) { return startsWith(bytes, "ftypavi", 4); }  // one picture, or a sequence
+bool isDds(Bytes bytes) { return startsWith(bytes, "DDS "); }
 
 std::string firstBytes(Bytes bytes)
 {
@@ -349,8 +351,9 @@ DecodedImage decodeImage(Bytes bytes)
     if (isKtx2(bytes)) {
         return decodeKtx2(bytes);
     }
-    throw InputError(MessageId::UnknownFormat, {"is ", part::value("of an unknown kind (" + firstBytes(bytes) + ")"), "; expected ",
-                                                part::expected("PNG, JPEG, WebP or KTX2")});
+    const std::string kind = isAvif(bytes) ? "AVIF" : isDds(bytes) ? "DDS" : "of an unknown kind (" + firstBytes(bytes) + ")";
+    throw InputError(MessageId::UnknownFormat, {"is ", part::value(kind), "; expected ",
+                                                part::expected("PNG, JPEG, WebP or KTX2, to which other programs convert it")});
 }
 
 }  // namespace glim

@@ -179,6 +179,8 @@ TEST(DecodeImageTest, BrokenImagesAreRefused)
     const Case cases[] = {
         {{}, MessageId::UnknownFormat, "of an unknown kind (it is empty)"},
         {{'G', 'I', 'F', '8'}, MessageId::UnknownFormat, "of an unknown kind (it begins with 47 49 46 38)"},
+        {{0, 0, 0, 28, 'f', 't', 'y', 'p', 'a', 'v', 'i', 'f'}, MessageId::UnknownFormat, "AVIF"},
+        {{'D', 'D', 'S', ' ', 124}, MessageId::UnknownFormat, "DDS"},
         {{0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}, MessageId::UnknownFormat, "of an unknown kind (it begins with ab 4b 54 58)"},
         {truncated(png, 100), MessageId::FileDamaged, withinChunk},
         {truncated(png, png.size() - 20), MessageId::FileDamaged, withinChunk},

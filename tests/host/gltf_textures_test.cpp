@@ -103,6 +103,23 @@ TEST(GltfTextures, ExtensionsOfferImages)
         builder.document["images"][1]["uri"] = broken;
         expectRefused(builder, MessageId::UnknownFormat, {.place = "images[1]"});
     }
+    // Of kinds that are not read the texture's own image is drawn, or none: the file is refused by its image's name, or drawn grey.
+    for (const std::string extension : {"EXT_texture_avif", "MSFT_texture_dds"}) {
+        SCOPED_TRACE(extension);
+        GltfBuilder builder = texturedTriangle({{"uri", blue}});
+        builder.append("images", {{"uri", "data:image/other;base64,AAAAHGZ0eXBhdmlm"}});
+        builder.document["textures"][0]["extensions"][extension] = {{"source", 1}};
+        builder.document["extensionsUsed"] = {extension};
+        EXPECT_EQ(load(builder).images.at(0).pixels->rgba8, (Bytes{0, 0, 255, 255}));
+        builder.document["extensionsRequired"] = {extension};
+        builder.document["textures"][0].erase("source");
+        expectRefused(builder, MessageId::UnknownFormat, {.place = "images[1]", .value = "AVIF", .expected = "WebP"});
+        LoadOptions options;
+        options.missingTextures = MissingTextures::Grey;
+        EXPECT_EQ(load(builder, options).images.at(0).pixels->rgba8, (Bytes{128, 128, 128, 255}));
+        builder.document["textures"][0]["extensions"][extension] = {{"source", 7}};
+        expectRefused(builder, MessageId::DanglingIndex, {.value = "7"});
+    }
 }
 
 TEST(GltfTextures, DataUrisOfText)
@@ -336,7 +353,7 @@ TEST(GltfTextures, RequiredExtensionsAreRefusedIfContentMayBeMissing)
         builder.document["extensionsUsed"] = {extension};
         return builder;
     };
-    for (const char* extension : {"EXT_texture_avif", "MSFT_texture_dds", "KHR_gaussian_splatting_compression_spz", "VENDOR_unknown"}) {
+    for (const char* extension : {"KHR_gaussian_splatting_compression_spz", "VENDOR_unknown"}) {
         expectRefused(require(extension), MessageId::Unsupported, {.place = "extensionsRequired", .value = extension});
     }
     for (const char* extension :

@@ -480,6 +480,18 @@ class ToGltfColladaTest(unittest.TestCase):
             self.assertIn(sentence, refusal)
             self.assertEqual(len(refusal.splitlines()), 1, refusal)
 
+    def test_nodes_in_libraries_that_are_not_read(self):
+        text = one_triangle().text()
+        for url, sentence in (("#triangle", None), ("#gone", "the url of <instance_geometry> is \"#gone\"")):
+            node = element("library_controllers", element("node", element("instance_geometry", url=url), id="hidden"))
+            found = text.replace("<library_visual_scenes>", node + "<library_visual_scenes>").replace(
+                "<instance_geometry url=\"#triangle\"></instance_geometry></node>\n", "<instance_node url=\"#hidden\"/></node>\n")
+            self.assertIn("instance_node", found)
+            if sentence is None:
+                self.assertEqual(len(self.convert(found).json["nodes"]), 1)
+            else:
+                self.assertIn(sentence, self.refusal(found))
+
     def test_nodes_that_multiply(self):
         dae = one_triangle()
         dae.libraries["nodes"] = [element("node", element("instance_node", url="#n%d" % (i + 1)) * 10, id="n%d" % i) for i in range(9)]
@@ -488,6 +500,12 @@ class ToGltfColladaTest(unittest.TestCase):
         text, begin = dae.text(), time.process_time()
         self.assertIn("more than %d nodes" % (10000 + len(text) // 4), self.refusal(text))
         self.assertLess(time.process_time() - begin, 2.0)
+
+    def test_matrices_that_are_large_together(self):
+        text = one_triangle(transforms=element("scale", "1e30 1e30 1e30") * 12).text()
+        result = self.run_tool(text)
+        self.assertEqual((result.returncode, result.stderr), (1, "to_gltf: %s: the matrix of <node> \"triangle-node\" and of those above it "
+                                                              "is not finite in float32\n" % self.path("model.dae")))
 
     def test_one_line_whatever_the_file_holds(self):
         text = one_triangle().text().replace("triangle", "a\u009b31m" + "x" * 3000)

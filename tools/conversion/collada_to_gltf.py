@@ -17,6 +17,7 @@ from conversion.read_collada import read_collada
 # Nodes that instance others, which do so too, may be many more than the file has bytes.
 FEW_NODES, BYTES_PER_NODE = 10000, 4
 MOST_LEVELS = 200
+LARGEST = float(numpy.finfo(numpy.float32).max)
 # Turns of the up axis to y, as rows: Collada 1.4.1, section 5 (<up_axis>), and the course's.
 TURNS = {"Y_UP": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "X_UP": [[0, -1, 0], [1, 0, 0], [0, 0, 1]], "Z_UP": [[1, 0, 0], [0, 0, 1], [0, -1, 0]]}
 COURSE_TURNS = {"Y_UP": TURNS["Y_UP"], "X_UP": [[0, 1, 0], [1, 0, 0], [0, 0, -1]], "Z_UP": [[-1, 0, 0], [0, 0, 1], [0, 1, 0]]}
@@ -62,6 +63,8 @@ class ColladaConverter:
         if node not in self.matrices:
             self.matrices[node] = matrix_of(self.scene.path, node)
         matrix = matrix @ self.matrices[node]
+        if not numpy.all(numpy.abs(matrix) <= LARGEST):
+            self.scene.refuse("the matrix of %s and of those above it is not finite in float32" % described(node))
         name = node.get("name") or node.get("id") or "node"
         for element in node:
             tag, target = tag_of(element), self.ids.get(element.get("url", "#")[1:])
@@ -148,4 +151,5 @@ class ColladaConverter:
 
 
 def collada_to_gltf(path, course, say):
-    return ColladaConverter(ColladaScene(path, *read_collada(path, say), course, say)).convert()
+    with numpy.errstate(all="ignore"):  # what is not finite is refused, or has no direction
+        return ColladaConverter(ColladaScene(path, *read_collada(path, say), course, say)).convert()

@@ -63,11 +63,11 @@ class Checker:
 
     def check(self):
         for library in self.root:
-            if tag_of(library) in ("library_animations", "library_controllers", "library_physics_scenes", "library_physics_models"):
-                continue
+            unread = tag_of(library) in ("library_animations", "library_controllers", "library_physics_scenes", "library_physics_models")
             for element in library.iter():
-                if tag_of(element) in REFERENCES:
-                    self.check_reference(element, *REFERENCES[tag_of(element)])
+                tag = tag_of(element)
+                if tag in REFERENCES and (tag.startswith("instance_") or not unread):  # a scene may instance nodes anywhere
+                    self.check_reference(element, *REFERENCES[tag])
         if find(self.root, "scene/instance_visual_scene") is None:
             self.refuse("it has no <scene> with an <instance_visual_scene>; expected one")
         for library in children(self.root, "library_geometries"):

@@ -16,6 +16,7 @@ constexpr Extension kExtensions[] = {
     {"EXT_lights_image_based", ExtensionEffect::Drawn},
     {"EXT_mesh_gpu_instancing", ExtensionEffect::Drawn},
     {"EXT_meshopt_compression", ExtensionEffect::Drawn},
+    {"EXT_texture_avif", ExtensionEffect::Looks},  // an image that cannot be read, which may be drawn grey
     {"EXT_texture_webp", ExtensionEffect::Drawn},
     {"KHR_animation_pointer", ExtensionEffect::Drawn},
     {"KHR_draco_mesh_compression", ExtensionEffect::Drawn},
@@ -40,6 +41,7 @@ constexpr Extension kExtensions[] = {
     {"KHR_node_visibility", ExtensionEffect::Drawn},
     {"KHR_texture_basisu", ExtensionEffect::Drawn},
     {"KHR_texture_transform", ExtensionEffect::Drawn},
+    {"MSFT_texture_dds", ExtensionEffect::Looks},  // the same
     {"*_materials_", ExtensionEffect::Looks},
     {"*_lights_", ExtensionEffect::Looks},
     {"*_environment", ExtensionEffect::Looks},

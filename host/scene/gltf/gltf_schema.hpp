@@ -118,7 +118,9 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::other("textures[].name", JsonKind::String),
     schema::index("textures[].source", "images"),
     schema::index("textures[].sampler", "samplers"),
+    schema::index("textures[].extensions.EXT_texture_avif.source", "images"),
     schema::index("textures[].extensions.EXT_texture_webp.source", "images"),
+    schema::index("textures[].extensions.MSFT_texture_dds.source", "images"),
     schema::index("textures[].extensions.KHR_texture_basisu.source", "images"),
 
     schema::other("materials[].name", JsonKind::String),

@@ -275,7 +275,8 @@ void warnOfSamplers(const json& document, Warnings& warnings)
     }
 }
 
-// The image of an extension goes before the texture's own, which is there for readers that do not know the extension.
+// The image of an extension goes before the texture's own, which is there for readers that do not know the extension. Images of kinds that
+// glim does not know come last: they are refused with their names, or drawn grey.
 std::vector<GltfTexture> listTextures(const json& document)
 {
     std::vector<GltfTexture> textures;
@@ -287,8 +288,9 @@ std::vector<GltfTexture> listTextures(const json& document)
         texture.wrapT = wrapOf(sampler, "wrapT");
         texture.nearest = isNearest(sampler);
         const json extensions = entry.value("extensions", json::object());
-        for (const json& holder :
-             {extensions.value("EXT_texture_webp", json::object()), extensions.value("KHR_texture_basisu", json::object()), entry}) {
+        const auto extension = [&extensions](const char* name) { return extensions.value(name, json::object()); };
+        for (const json& holder : {extension("EXT_texture_webp"), extension("KHR_texture_basisu"), entry, extension("EXT_texture_avif"),
+                                   extension("MSFT_texture_dds")}) {
             if (!texture.image && holder.contains("source")) {
                 texture.image = holder["source"].get<std::size_t>();
             }
