@@ -95,6 +95,17 @@ TEST(GltfPoints, RadiiThatAreNoneAreIgnoredAndSaidSo)
 }
 
 // Also of points that coincide.
+// They are no places that the origin could be near to: float32 resolves none of them.
+TEST(GltfPoints, RadiiThatRoundToZeroLeaveTheOriginAsItIs)
+{
+    GltfBuilder builder;
+    json primitive = {{"attributes", {{"POSITION", builder.addVec3({0, 0, 0, 2, 0, 0})}}}, {"mode", 0}, {"extras", {{"radius", 1e-50}}}};
+    builder.addNode({{"mesh", builder.addMesh(primitive)}});
+    const Scene scene = load(builder);
+    EXPECT_EQ(scene.origin, glm::dvec3(1, 0, 0));
+    EXPECT_FALSE(hasWarning(scene.warnings, MessageId::FarPart));
+}
+
 TEST(GltfPoints, APointAloneIsAHundredthOfTheScene)
 {
     EXPECT_EQ(spheresOf(cloud({}, {}, {5, 5, 5, 5, 5, 5})).at(1).radius, 0.01F);

@@ -423,7 +423,7 @@ void GeometryReader::addPlaces(const MeshInstance& instance, std::size_t step, s
     const glm::dmat3 linear(instance.worldFromMesh);
     const glm::dvec3 translation(instance.worldFromMesh[3]);
     const double diameter = mesh.isCloud ? 2.0 * static_cast<double>(computePointRadius(scene_, instance)) : 0.0;
-    for (std::size_t i = 0; mesh.isCloud && i < mesh.positions.size(); i += step) {
+    for (std::size_t i = 0; diameter > 0.0 && i < mesh.positions.size(); i += step) {
         places.push_back({linear * mesh.positions[i] + translation, diameter,
                           static_cast<double>(std::min(step, mesh.positions.size() - i)), instance.node});
     }
