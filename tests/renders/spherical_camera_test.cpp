@@ -34,7 +34,7 @@ void addFilm(const Film& film, const Direction& directionOf, Sums& sums)
             const double u = (x + 0.5) / film.width, v = (y + 0.5) / film.height;
             const dvec3 du = (directionOf(u + kStep, v) - directionOf(u - kStep, v)) / (2.0 * kStep);
             const dvec3 dv = (directionOf(u, v + kStep) - directionOf(u, v - kStep)) / (2.0 * kStep);
-            const double angle = glm::length(glm::cross(du, dv)) / film.pixels.size();
+            const double angle = glm::length(glm::cross(du, dv)) / static_cast<double>(film.pixels.size());
             const auto moments = momentsOf(directionOf(u, v));
             const double light = static_cast<double>(film.pixels[std::size_t{y} * film.width + x].mean.g);
             for (std::size_t k = 0; k < kMoments; ++k) {
@@ -115,11 +115,12 @@ struct Estimate {
 Estimate estimate(const std::vector<Sums>& runs, std::size_t k)
 {
     Estimate e;
+    const auto count = static_cast<double>(runs.size());
     for (const Sums& run : runs) {
-        e.mean += run[k] / runs.size();
+        e.mean += run[k] / count;
     }
     for (const Sums& run : runs) {
-        e.variance += (run[k] - e.mean) * (run[k] - e.mean) / (runs.size() * (runs.size() - 1.0));
+        e.variance += (run[k] - e.mean) * (run[k] - e.mean) / (count * (count - 1.0));
     }
     return e;
 }
