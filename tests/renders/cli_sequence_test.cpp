@@ -229,7 +229,7 @@ TEST_F(SequenceTest, ListsOfCamerasThatAreWrongAreRefused)
     expect("[]", MessageId::WrongType, {.expected = "at least one camera"});
     expect("[3]", MessageId::WrongType, {.place = "[0]", .value = "3"});
     expect(R"([{}, {"form": [0, 0, 0]}])", MessageId::UnknownName,
-           {.place = "[1]", .value = "form", .expected = "camera, from, at, up, zoom, matrix or yfov"});
+           {.place = "[1]", .value = "form", .expected = "camera, from, at, up, zoom, matrix, axes or yfov"});
     expect(R"([{"from": [0, 0, 1]}])", MessageId::Requires, {.place = "[0]", .value = "from and at"});
     expect(R"([{"from": [0, 0], "at": [0, 0, 0]}])", MessageId::WrongType, {.place = "[0].from", .value = "[0,0]"});
     expect(R"([{"zoom": 2}])", MessageId::Requires, {.place = "[0]", .value = "zoom"});
