@@ -1,4 +1,5 @@
 // The C++ side of `import glim`. Keyword arguments are the options of a job.
+#include "host/atomic_file.hpp"
 #include "host/gpu/device.hpp"
 #include "host/job/render_picture.hpp"
 #include "host/job/render_report.hpp"
@@ -288,6 +289,11 @@ NB_MODULE(_glim, module)
         .def_prop_ro("last_film", &PythonScene::lastFilm);
     module.def("merge", &merge, nb::arg("films"), nb::call_guard<nb::gil_scoped_release>());
     module.def("devices", &devices);
+    module.def("write_file", [](const std::filesystem::path& path, const nb::bytes& content) {
+        AtomicFile file(path);
+        file.write(content.data(), content.size());
+        file.commit();
+    });
     module.def("listen", [](nb::callable listener) {
         listenToMessages([listener](Severity severity, const Message& message) {
             const nb::gil_scoped_acquire gil;

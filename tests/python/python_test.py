@@ -5,6 +5,7 @@ package."""
 import gc
 import json
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -243,6 +244,44 @@ class FilmTest(PythonCase):
             glim.read(self.path("film.exr")).resume(spp=1000)
 
 
+class ArraysTest(PythonCase):
+    def film(self, **options):
+        return glim.render(GEMS, size=(24, 16), spp=64, ids=True, **options)
+
+    def test_are_dense_copies_of_every_layer(self):
+        film = self.film(denoise=True)
+        arrays = film.arrays()
+        self.assertEqual(sorted(arrays), ["K", "albedo", "alpha", "count", "denoised", "depth", "ids.material", "ids.mesh", "ids.node",
+                                          "normal", "pose", "rgb", "variance"])
+        for name, values in arrays.items():
+            self.assertTrue(values.flags.c_contiguous and values.flags.owndata, name)
+        for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance", "denoised"):
+            np.testing.assert_array_equal(arrays[name], getattr(film, name), err_msg=name)
+        np.testing.assert_array_equal(arrays["ids.node"], film.ids["node"])
+        np.testing.assert_array_equal(arrays["pose"], film.camera.pose("gltf"))
+
+    def test_are_saved_for_numpy(self):
+        film = self.film()
+        film.save(self.path("film.npz"))
+        with np.load(self.path("film.npz"), allow_pickle=False) as saved:
+            for name, values in film.arrays().items():
+                np.testing.assert_array_equal(saved[name], values, err_msg=name)
+        os.mkdir(self.path("folder.npz"))
+        for name in ("folder.npz", "none/film.npz"):
+            with self.assertRaises(glim.InputError) as refused:
+                film.save(self.path(name))
+            self.assertEqual(refused.exception.file, self.path(name))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["film.npz", "folder.npz"])
+
+    def test_films_are_pickled(self):
+        film = glim.render(GEMS, size=(24, 16), spp=40)
+        copied = pickle.loads(pickle.dumps(film))
+        self.assertEqual((copied.digest, copied.pixels_digest, copied.settings), (film.digest, film.pixels_digest, film.settings))
+        np.testing.assert_array_equal(copied.variance, film.variance)
+        whole = glim.load(GEMS, size=(24, 16)).render(spp=320, resume=pickle.loads(pickle.dumps(glim.render(GEMS, size=(24, 16), spp=256))))
+        self.assertEqual(whole.pixels_digest, glim.render(GEMS, size=(24, 16), spp=320).pixels_digest)
+
+
 class CameraTest(PythonCase):
     K = np.array([[40.0, 0, 15.5], [0, 42.0, 11.25], [0, 0, 1]])
     POSE = np.array([[0, 0, -1, 1.5], [0, -1, 0, 1.25], [-1, 0, 0, .5]])  # OpenCV's axes: looks along -x
@@ -393,8 +432,8 @@ class UseTest(PythonCase):
                      lambda name: glim.render(GEMS, environment=name)):
             with self.assertRaisesRegex(glim.InputError, "has a null character"):
                 call(self.path("film.EXR") + "\0.exr")
-        for name in ("film.npz", "film.bmp", "film", "film.exr.tif", "exr"):
-            with self.assertRaisesRegex(glim.InputError, "its name does not end in .exr, .png, .jpg, .jpeg or .webp"):
+        for name in ("film.npy", "film.bmp", "film", "film.exr.tif", "exr"):
+            with self.assertRaisesRegex(glim.InputError, "its name does not end in .exr, .npz, .png, .jpg, .jpeg or .webp"):
                 film.save(self.path(name))
         odd = os.fsdecode(os.fsencode(self.folder) + b"/\xff.gltf")  # no Unicode
         shutil.copy(scene("cornell"), odd)

@@ -7,6 +7,7 @@
 """
 
 import contextlib
+import io
 import logging
 import math
 import os
@@ -15,6 +16,8 @@ import tempfile
 import threading
 import warnings
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy
 
 from glim._camera import Camera
 from glim._errors import DeviceError, GlimWarning, InputError, unusable
@@ -154,7 +157,8 @@ class Film:
 
     @property
     def depth(self):
-        """(height, width) float32: nearest hit, metres along the view axis; infinite where all samples missed."""
+        """(height, width) float32: nearest hit, metres along the view axis (of a fisheye and of 360 degrees: from the camera); infinite where
+        all samples missed."""
         return self._native.depth
 
     @property
@@ -247,22 +251,45 @@ class Film:
         return scene.render(progress=progress, resume=self, **{**before, **options})
 
     def save(self, path: Path, *, exposure: Union[float, str] = 0.0, tone: str = "none") -> None:
-        """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read, or an sRGB picture (.png, .jpg, .jpeg or .webp). Its
-        exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx". PNG and WebP have alpha if environment_background was
-        off."""
+        """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read; an sRGB picture (.png, .jpg, .jpeg or .webp); or the
+        arrays of `arrays()` for numpy.load (.npz). A picture's exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx".
+        PNG and WebP have alpha if environment_background was off."""
         name = path_of(path, "path")
         stops = None if isinstance(exposure, str) and exposure == "auto" else _stops(exposure)
         if not isinstance(tone, str):
             raise unusable("tone", tone, "none, neutral or agx")
         ending = os.path.splitext(name)[1].lower()
-        with _call():
+        with _call() as native:
             if ending in (".png", ".jpg", ".jpeg", ".webp"):
                 self._native.save_picture(name, stops, tone, None)
             elif ending == ".exr":
                 self._native.save(name)
+            elif ending == ".npz":
+                content = io.BytesIO()
+                numpy.savez(content, **self.arrays())
+                native.write_file(name, content.getvalue())
             else:
-                raise InputError("%s: cannot be written: its name does not end in .exr, .png, .jpg, .jpeg or .webp." % name,
-                                 "unknown-format", file=name, expected=".exr, .png, .jpg, .jpeg or .webp")
+                raise InputError("%s: cannot be written: its name does not end in .exr, .npz, .png, .jpg, .jpeg or .webp." % name,
+                                 "unknown-format", file=name, expected=".exr, .npz, .png, .jpg, .jpeg or .webp")
+
+    def arrays(self) -> Dict[str, Any]:
+        """Dense copies of all layers, by name: rgb, alpha, albedo, normal, depth, count and variance, as the properties describe them;
+        denoised, ids.node, ids.mesh and ids.material if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
+        (4x4, camera to world, glTF's axes)."""
+        layers = {name: getattr(self, name) for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance", "denoised")}
+        layers.update({"ids." + name: values for name, values in (self.ids or {}).items()})
+        camera = self.camera
+        if camera is not None:
+            layers.update(K=camera.K("corner"), pose=camera.pose("gltf"))
+        return {name: numpy.array(values) for name, values in layers.items() if values is not None}
+
+    def __reduce__(self):
+        """Pickled as its EXR: a copy has all but ids and denoised, and is resumed by Scene.render(resume=film)."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "film.exr")
+            self._native.save(path)
+            with open(path, "rb") as file:
+                return _of_bytes, (file.read(),)
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory() as folder:
@@ -276,6 +303,14 @@ class Film:
         error = self.error
         known = ", estimated RMSE %.3g %% of the mean [%.3g, %.3g]" % tuple(100 * value for value in error[:3]) if error else ""
         return "<glim.Film %dx%d, %d samples per pixel%s%s>" % (self.width, self.height, count, "" if self.complete else " at most", known)
+
+
+def _of_bytes(exr):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "film.exr")
+        with open(path, "wb") as file:
+            file.write(exr)
+        return read(path)
 
 
 class Scene:
