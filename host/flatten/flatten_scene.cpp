@@ -402,7 +402,7 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
             camera.right * axes.x,
             camera.up * axes.y,
             camera.forward,
-            perspective ? kPerspective : kOrthographic,
+            perspective || isSpherical(camera.projection) ? kPerspective : kOrthographic,
             camera.right * lens.radius,
             camera.up * lens.radius,
             1.0F / lens.focalDistance,

@@ -37,6 +37,7 @@ void addSequence(OptionTable& table, RenderJob& options)
     turntable.excludes(cameras);
     for (const Option* chooser : {&turntable, &cameras}) {
         chooser->excludes(table.option("--camera")).excludes(table.option("--look-from"));
+        chooser->excludes(table.option("--pose-gltf")).excludes(table.option("--pose-opencv"));
     }
     cameras.excludes(table.option("--fov")).excludes(table.option("--zoom"));  // each camera of the file has its own
 }

@@ -65,11 +65,12 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
 
 Camera applyProjection(const Camera& camera, const Projection& projection, const std::optional<glm::uvec2>& size)
 {
-    const bool isOfPerspective = projection.intrinsics || projection.model == Projection::Model::RadialTangential;
-    if (isOfPerspective && camera.kind == Camera::Kind::Orthographic) {
-        throw InputError(MessageId::Conflict,
-                         {part::place(projection.intrinsics ? "--intrinsics" : "--distortion"), ": camera ", part::quoted(camera.name),
-                          " is orthographic; expected ", part::expected("a perspective camera"), "."});
+    using Model = Projection::Model;
+    const bool isFisheye = projection.model == Model::Fisheye;
+    if ((projection.intrinsics || isFisheye || projection.model == Model::RadialTangential) && camera.kind == Camera::Kind::Orthographic) {
+        const char* const option = projection.intrinsics ? "--intrinsics" : isFisheye ? "--fisheye" : "--distortion";
+        throw InputError(MessageId::Conflict, {part::place(option), ": camera ", part::quoted(camera.name), " is orthographic; expected ",
+                                               part::expected("a perspective camera"), "."});
     }
     Camera changed = camera;
     changed.projection = projection;

@@ -27,8 +27,8 @@ Camera applyField(const Camera& camera, const FieldOfView& field);
 // Returns `camera` in another pose. Throws InputError if the pose defines no view direction, or no up direction.
 Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sceneOrigin);
 
-// Returns the camera with that projection, in a picture of that size. Throws InputError if an orthographic camera is to distort, or to have
-// intrinsics.
+// Returns the camera with that projection, in a picture of that size. Throws InputError if an orthographic camera is to have intrinsics or
+// a lens that distorts.
 Camera applyProjection(const Camera& camera, const Projection& projection, const std::optional<glm::uvec2>& size);
 
 // The pose of a camera at `worldFromCamera`, whose axes times `toGltf` are those of glTF: x right, y up, z backwards. Nothing if the matrix

@@ -16,16 +16,16 @@
 #include "lib/camera.glsl"
 #include "lib/warp.glsl"
 
-PathRay rayThrough(FlatCamera camera, SampleId id, vec2 film)
+// False if the point of the film shows nothing.
+bool rayThrough(FlatCamera camera, SampleId id, vec2 film, out PathRay ray)
 {
     if (kProjection >= kFisheye) {
-        return sphericalRay(camera, kProjection, film);
+        return sphericalRay(camera, kProjection, film, ray);
     }
     vec2 plane = film;
-    if (kProjection != kCentredFilm && !planeFromFilm(camera.projection, kProjection, film, plane)) {
-        return rayOfNothing();
-    }
-    return kLens ? lensRay(camera, plane, sampleDisk(unitFloat(samplePair(id, kDimensionLens, kSobol)))) : cameraRay(camera, plane);
+    bool isSeen = kProjection == kCentredFilm || planeFromFilm(camera.projection, kProjection, film, plane);
+    ray = kLens ? lensRay(camera, plane, sampleDisk(unitFloat(samplePair(id, kDimensionLens, kSobol)))) : cameraRay(camera, plane);
+    return isSeen;
 }
 
 void main()
@@ -39,15 +39,19 @@ void main()
         SampleId id = makeSampleId(slot);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);
-        PathRay ray = rayThrough(render.camera, id, filmFromPixel(corner + jitter, vec2(render.width, render.height)));
+        PathRay ray;
+        bool isSeen = rayThrough(render.camera, id, filmFromPixel(corner + jitter, vec2(render.width, render.height)), ray);
+        if (!isSeen) {
+            ray = rayOfNothing();
+        }
         ray.media = render.camera.media;
         if (hasFeature(kFeatureMedia) && ray.media == kMediaVary) {
             Steps uncounted = Steps(0u, 0u);
             ray.media = mediaAround(ray.origin, uncounted);
         }
         storeRay(slot, ray);
-        vec3 throughput = vec3(kProjection == kCentredFilm || ray.origin != rayOfNothing().origin ? 1.0 : 0.0);
-        storeState(slot, PathState(throughput, 0.0, 0.0, 1.0, 0u, 0u));
+        float throughput = isSeen ? 1.0 : 0.0;  // nor is the environment seen
+        storeState(slot, PathState(vec3(throughput), 0.0, 0.0, 1.0, 0u, 0u));
         storeRadiance(slot, PathRadiance(vec3(0.0), 0.0));
         nextQueue[slot] = slot;
     }

@@ -52,13 +52,13 @@ PathRay rayOfNothing()
     return PathRay(vec3(1e15), kNoPrimitive, vec3(0.57735027), 0u);
 }
 
-PathRay sphericalRay(FlatCamera camera, uint model, vec2 film)
+// False if the point of the film shows nothing.
+bool sphericalRay(FlatCamera camera, uint model, vec2 film, out PathRay ray)
 {
     vec3 local;
-    if (!directionFromFilm(camera.projection, model, film, local)) {
-        return rayOfNothing();
-    }
-    return PathRay(camera.position, kNoPrimitive, normalize(local.x * camera.right + local.y * camera.up + local.z * camera.forward), 0u);
+    bool isSeen = directionFromFilm(camera.projection, model, film, local);
+    ray = PathRay(camera.position, kNoPrimitive, normalize(local.x * camera.right + local.y * camera.up + local.z * camera.forward), 0u);
+    return isSeen;
 }
 
 // A point as the camera sees it.

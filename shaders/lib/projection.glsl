@@ -31,21 +31,27 @@ float computeDeterminant(mat2 m)
     return m[0].x * m[1].y - m[0].y * m[1].x;
 }
 
+// How many times as far from the middle a lens images a tangent of the angle from its axis as without radial distortion, and the derivative
+// by the tangent's square.
+vec2 distortRatio(FlatProjection p, float r2)
+{
+    float above = 1.0 + r2 * (p.radial.x + r2 * (p.radial.y + r2 * p.radial.z));
+    float below = max(1.0 + r2 * (p.radial.w + r2 * (p.radial2.x + r2 * p.radial2.y)), 1e-6);  // by a pole it may round to below 0
+    float ratio = above / below;
+    float aboveSlope = p.radial.x + r2 * (2.0 * p.radial.y + 3.0 * r2 * p.radial.z);
+    float belowSlope = p.radial.w + r2 * (2.0 * p.radial2.x + 3.0 * r2 * p.radial2.y);
+    return vec2(ratio, (aboveSlope - ratio * belowSlope) / below);
+}
+
 // Where a lens with radial and tangential distortion images the direction with tangents `x`.
 Distorted distortRadially(FlatProjection p, vec2 x)
 {
-    float r2 = dot(x, x);
-    float above = 1.0 + r2 * (p.radial.x + r2 * (p.radial.y + r2 * p.radial.z));
-    float below = 1.0 + r2 * (p.radial.w + r2 * (p.radial2.x + r2 * p.radial2.y));
-    float above1 = p.radial.x + r2 * (2.0 * p.radial.y + 3.0 * r2 * p.radial.z);  // derivatives by r2
-    float below1 = p.radial.w + r2 * (2.0 * p.radial2.x + 3.0 * r2 * p.radial2.y);
-    float ratio = above / below, slope = 2.0 * (above1 - ratio * below1) / below;
-    vec2 t = p.tangential;
-    float cross2 = 2.0 * x.x * x.y;
-    vec2 value = x * ratio + vec2(t.x * cross2 + t.y * (r2 + 2.0 * x.x * x.x), t.x * (r2 + 2.0 * x.y * x.y) + t.y * cross2);
-    float mixed = slope * x.x * x.y + 2.0 * (t.x * x.x + t.y * x.y);
-    return Distorted(value, mat2(ratio + slope * x.x * x.x + 2.0 * t.x * x.y + 6.0 * t.y * x.x, mixed,
-                                 mixed, ratio + slope * x.y * x.y + 6.0 * t.x * x.y + 2.0 * t.y * x.x));
+    float r2 = dot(x, x), cross2 = 2.0 * x.x * x.y;
+    vec2 ratio = distortRatio(p, r2), t = p.tangential;
+    float slope = 2.0 * ratio.y, mixed = slope * x.x * x.y + 2.0 * (t.x * x.x + t.y * x.y);
+    return Distorted(x * ratio.x + vec2(t.x * cross2 + t.y * (r2 + 2.0 * x.x * x.x), t.x * (r2 + 2.0 * x.y * x.y) + t.y * cross2),
+                     mat2(ratio.x + slope * x.x * x.x + 2.0 * t.x * x.y + 6.0 * t.y * x.x, mixed,
+                          mixed, ratio.x + slope * x.y * x.y + 6.0 * t.x * x.y + 2.0 * t.y * x.x));
 }
 
 // The distance from the middle at which a lens images a tangent of the angle from its axis, or a fisheye that angle, and its derivative;
@@ -58,11 +64,8 @@ vec2 distortDistance(FlatProjection p, uint model, float x)
         float slope = 1.0 + x2 * (3.0 * p.radial.x + x2 * (5.0 * p.radial.y + x2 * (7.0 * p.radial.z + x2 * (9.0 * p.radial.w))));
         return vec2(x * value, slope);
     }
-    float above = 1.0 + x2 * (p.radial.x + x2 * (p.radial.y + x2 * p.radial.z));
-    float below = max(1.0 + x2 * (p.radial.w + x2 * (p.radial2.x + x2 * p.radial2.y)), 1e-6);  // by a pole it may round to below 0
-    float above1 = p.radial.x + x2 * (2.0 * p.radial.y + 3.0 * x2 * p.radial.z);
-    float below1 = p.radial.w + x2 * (2.0 * p.radial2.x + 3.0 * x2 * p.radial2.y);
-    return vec2(x * above / below, (above + 2.0 * x2 * (above1 - above / below * below1)) / below);
+    vec2 ratio = distortRatio(p, x2);
+    return vec2(x * ratio.x, ratio.x + 2.0 * x2 * ratio.y);
 }
 
 // The inverse: Newton's method, and bisection where it leaves what is known to hold the root. False if there is none: the field of view

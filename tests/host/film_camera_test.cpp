@@ -2,7 +2,9 @@
 #include "host/render/film_camera.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/json.hpp"
+#include "host/scene/pose.hpp"
 #include "tests/support/any_camera.hpp"
+#include "tests/support/expect_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +79,20 @@ TEST(FilmCameraTest, OnlyWhatAppliesIsSaid)
     camera = {};
     camera.kind = Camera::Kind::Orthographic;
     EXPECT_TRUE(!has("K") && has("halfSize"));
+}
+
+TEST(FilmCameraTest, OrthographicCamerasHaveNoLens)
+{
+    Camera camera;
+    Projection lens, fisheye, around;
+    lens.model = Projection::Model::RadialTangential;
+    fisheye.model = Projection::Model::Fisheye;
+    around.model = Projection::Model::Equirectangular;
+    EXPECT_EQ(applyProjection(camera, fisheye, std::nullopt).projection, fisheye);
+    camera.kind = Camera::Kind::Orthographic;
+    test::expectRefusal<InputError>([&] { applyProjection(camera, lens, std::nullopt); }, MessageId::Conflict, {.place = "--distortion"});
+    test::expectRefusal<InputError>([&] { applyProjection(camera, fisheye, std::nullopt); }, MessageId::Conflict, {.place = "--fisheye"});
+    EXPECT_EQ(flattenCamera(applyProjection(camera, around, std::nullopt), 2.0F).kind, kPerspective);
 }
 
 }  // namespace

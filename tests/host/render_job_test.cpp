@@ -378,7 +378,11 @@ TEST(RenderJob, CamerasThatCannotBeAreRefused)
     for (const char* pair : {"--fov 30", "--zoom 2", "--intrinsics-opencv 1,1,1,1", "--projection equirectangular"}) {
         EXPECT_THROW(parse(std::string("--size 8x8 --intrinsics 1,1,1,1 ") + pair), UsageError) << pair;
     }
-    EXPECT_THROW(parse("--intrinsics 1,1,1,1"), UsageError);  // of which picture?
+    EXPECT_THROW(parse("--intrinsics 1,1,1,1"), UsageError);                             // of which picture?
+    for (const char* several : {"--turntable 4", "--cameras a.json", "--camera all"}) {  // which would ignore the pose
+        EXPECT_THROW(parse(std::string("-o x.##.exr --pose-gltf 1,0,0,1,0,1,0,2,0,0,1,3 ") + several), UsageError) << several;
+        EXPECT_NO_THROW(parse(std::string("-o x.##.exr ") + several)) << several;
+    }
     EXPECT_THROW(parse("--fisheye 0,0,0,0 --distortion 0,0,0,0"), UsageError);
     EXPECT_THROW(parse("--projection equirectangular --lens-radius 1 --focal-distance 1"), UsageError);
     EXPECT_THROW(parse("--pose-gltf 1,0,0,1,0,1,0,2,0,0,1,3 --look-from 1,1,1 --look-at 0,0,0"), UsageError);

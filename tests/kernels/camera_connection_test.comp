@@ -25,7 +25,8 @@ void main()
         EXPECT_NEAR(connection.weight, c.weight, 2e-4 * c.weight);
         vec2 plane = connection.film;
         EXPECT_TRUE(model == kCentredFilm || model >= kFisheye || planeFromFilm(c.camera.projection, model, connection.film, plane));
-        PathRay ray = model >= kFisheye ? sphericalRay(c.camera, model, connection.film) : lensRay(c.camera, plane, c.disk);
+        PathRay ray = lensRay(c.camera, plane, c.disk);
+        EXPECT_TRUE(model < kFisheye || sphericalRay(c.camera, model, connection.film, ray));
         EXPECT_NEAR_VECTOR(connection.origin, ray.origin, 2e-4);
         EXPECT_NEAR_VECTOR(connection.wo, -ray.direction, 2e-5);
         vec2 size = vec2(640.0, 480.0);
