@@ -74,10 +74,14 @@ std::optional<glm::mat4> worldToCameraOf(const std::string& description)
         return std::nullopt;
     }
     glm::dmat4 worldFromCamera(1.0);
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            worldFromCamera[column][row] = pose->at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column)).number();
+    try {
+        for (int row = 0; row < 4; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                worldFromCamera[column][row] = pose->at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column)).number();
+            }
         }
+    } catch (const JsonError&) {
+        return std::nullopt;
     }
     return glm::mat4(glm::transpose(glm::inverse(worldFromCamera)));
 }

@@ -14,7 +14,7 @@ namespace glim {
 // of the picture.
 std::string describeFilmCamera(const Camera& camera, const glm::uvec2& size, const glm::dvec3& sceneOrigin, std::optional<double> time);
 
-// OpenEXR's worldToCamera, for row vectors, of such a description; nothing if the text has no pose.
+// OpenEXR's worldToCamera, for row vectors, of such a description; nothing if the text has no pose of four rows of four numbers.
 std::optional<glm::mat4> worldToCameraOf(const std::string& description);
 
 }  // namespace glim

@@ -426,6 +426,10 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     film.identity.kernels = textIfPresent(image, "glim:kernels");
     film.arithmetic = textIfPresent(image, "glim:arithmetic");
     film.camera = textIfPresent(image, kCamera);
+    if (!film.camera.empty() && !worldToCameraOf(film.camera)) {
+        throw InputError(MessageId::Malformed, {part::file(path), ": its ", part::place("camera"), " is ", part::quoted(film.camera),
+                                                ", expected ", part::expected("JSON with a pose of four rows of four numbers"), "."});
+    }
     film.showsBackground = textIfPresent(image, kBackground) != "off";
     return film;
 }

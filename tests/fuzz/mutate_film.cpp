@@ -1,5 +1,6 @@
 // Mutants of films. Damaged pixels fail at the film's digest, so half of the mutants are films that glim has read, changed and written.
 #include "host/error.hpp"
+#include "host/render/film_camera.hpp"
 #include "host/render/film_file.hpp"
 #include "tests/fuzz/mutate_exr.hpp"
 
@@ -72,6 +73,15 @@ private:
         number = choice.of(numbers);
     }
 
+    static void changeText(Film& film, Choice& choice)
+    {
+        if (film.camera.empty()) {
+            film.camera = describeFilmCamera({}, {film.width, film.height}, glm::dvec3(0.0), 0.5);
+        }
+        std::string* const texts[] = {&film.arithmetic, &film.device, &film.camera};
+        mutateBytes(*choice.of(texts), 8);
+    }
+
     static void change(Film& film, Choice& choice)
     {
         switch (choice.below(8)) {
@@ -81,7 +91,7 @@ private:
         case 3: change(choice.of(film.sampleRanges).second, choice); break;
         case 4: film.sampleRanges.emplace_back(choice.below(4096), choice.below(8192)); break;
         case 5: film.complete = !film.complete; break;
-        case 6: mutateBytes(choice.oneIn(2) ? film.arithmetic : film.device, 8); break;
+        case 6: changeText(film, choice); break;
         default: film.splats.assign(choice.oneIn(2) ? film.pixels.size() : 0, SplatMoments{});
         }
     }

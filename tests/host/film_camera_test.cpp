@@ -62,7 +62,10 @@ TEST(FilmCameraTest, OpenExrsMatrixIsForRowVectors)
     const auto matrix = worldToCameraOf(describeFilmCamera(camera, {4, 4}, {0, 0, 10}, std::nullopt));
     ASSERT_TRUE(matrix);
     EXPECT_EQ(glm::transpose(*matrix) * glm::vec4(6, 2, 13, 1), glm::vec4(0, 0, -5, 1));
-    EXPECT_FALSE(worldToCameraOf(""));
+    for (const char* damaged : {"", "pose", "[]", "{}", R"({"pose":3})", R"({"pose":[]})", R"({"pose":[[1,2,3]]})",
+                                R"({"pose":[["1",0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})"}) {
+        EXPECT_FALSE(worldToCameraOf(damaged)) << damaged;
+    }
 }
 
 TEST(FilmCameraTest, OnlyWhatAppliesIsSaid)

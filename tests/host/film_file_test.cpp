@@ -287,6 +287,14 @@ TEST_F(FilmFileRefusal, OfImpossibleSampleRanges)
     }
 }
 
+TEST_F(FilmFileRefusal, OfACameraWithoutAPose)
+{
+    for (const char* camera : {"pose", R"({"pose":3})", R"({"pose":[[1,0,0,0]]})"}) {
+        image.attributes["glim:camera"] = std::string(camera);
+        expectRefused(MessageId::Malformed, {.place = "camera", .value = camera});
+    }
+}
+
 // Where the table of rows begins, after the empty name that ends the header.
 std::size_t headerEnd(const std::string& film)
 {
