@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -85,6 +86,39 @@ nb::object ids(nb::handle self)
     for (const auto& [kind, indices] : film.ids()) {
         layers[kind.c_str()] = Layer<std::uint32_t>(indices.data(), 2, shape, self);
     }
+    return layers;
+}
+
+// By name, the letters of a layer side by side.
+nb::object surfaces(const PythonFilm& film)
+{
+    if (!film.surfaces()) {
+        return nb::none();
+    }
+    struct SurfaceLayer {
+        const char *name, *prefix, *letters;
+    };
+    constexpr SurfaceLayer kLayers[] = {{"position", "position.", "XYZ"},
+                                        {"uv", "uv.", "UV"},
+                                        {"distance", "distance.", "Y"},
+                                        {"forward_flow", "forwardFlow.", "XY"},
+                                        {"backward_flow", "backwardFlow.", "XY"}};
+    nb::dict layers;
+    for (const auto& [name, prefix, letters] : kLayers) {
+        if (!film.surfaces()->channels.contains(prefix + std::string(1, letters[0]))) {
+            continue;
+        }
+        const std::size_t count = std::strlen(letters), pixels = film.pixels().size();
+        std::vector<float> values(count * pixels);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::vector<float>& channel = film.surfaces()->channels.at(prefix + std::string(1, letters[k]));
+            for (std::size_t i = 0; i < pixels; ++i) {
+                values[count * i + k] = channel[i];
+            }
+        }
+        layers[name] = copied(film.film(), std::move(values), count);
+    }
+    layers["instance"] = copied(film.film(), film.surfaces()->counts.at("instance.X"), 1);
     return layers;
 }
 
@@ -222,6 +256,8 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("count", &counts, own)
         .def_prop_ro("variance", &variance, own)
         .def_prop_ro("ids", &ids)
+        .def_prop_ro("surfaces", &surfaces)
+        .def_prop_ro("objects", &PythonFilm::objects)
         .def_prop_ro("estimate", &estimate)
         .def_prop_ro("denoised", &denoised)
         .def_prop_ro("measured", &measured)

@@ -3,6 +3,7 @@
 
 #include "host/job/denoising.hpp"
 #include "host/render/film_file.hpp"
+#include "host/image/image.hpp"
 #include "host/render/identify.hpp"
 
 #include <nanobind/nanobind.h>
@@ -30,6 +31,12 @@ public:
     void identify(Identifier& identifier);
     // Indices in the scene's file, by "node", "mesh" and "material"; empty unless identify() was called.
     const std::map<std::string, std::vector<std::uint32_t>>& ids() const { return ids_; }
+    // Layers of surfaces.hpp.
+    void setSurfaces(Image surfaces) { surfaces_ = std::move(surfaces); }
+    const std::optional<Image>& surfaces() const { return surfaces_; }
+    // JSON of seen_instances.hpp.
+    void setObjects(std::string objects) { objects_ = std::move(objects); }
+    const std::optional<std::string>& objects() const { return objects_; }
 
 private:
     Film film_;
@@ -37,6 +44,8 @@ private:
     std::vector<PixelMoments> shown_;
     std::optional<Denoising> denoising_;
     std::map<std::string, std::vector<std::uint32_t>> ids_;
+    std::optional<Image> surfaces_;
+    std::optional<std::string> objects_;
 };
 
 void bindFilm(nanobind::module_& module);

@@ -3,9 +3,11 @@
 #include "host/gpu/device.hpp"
 #include "host/job/render_picture.hpp"
 #include "host/job/render_report.hpp"
+#include "host/job/surface_files.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/identify.hpp"
 #include "host/render/merge_films.hpp"
+#include "host/render/seen_instances.hpp"
 #include "python/film.hpp"
 #include "shaders/shared/limits.h"
 
@@ -44,7 +46,7 @@ void refuseFork()
 }
 
 // Options that write files or make several pictures: in Python the caller does that.
-constexpr const char* kRefused[] = {"--image",    "--rates",  "--ids",       "--stats",   "--checkpoint", "--resume",  "--on-checkpoint",
+constexpr const char* kRefused[] = {"--image",    "--rates",  "--ids",       "--surfaces", "--objects", "--stats",   "--checkpoint", "--resume",  "--on-checkpoint",
                                     "--progress", "--frames", "--turntable", "--cameras", "--replay",     "--suspects"};
 
 // The Json of a Python value: bytes, a bool, a number, a list of bytes and numbers, or a dict of these (glim/_options.py).
@@ -125,21 +127,32 @@ private:
     std::exception_ptr failure_;
 };
 
+// What a film is to know besides the picture.
+struct Wanted {
+    bool ids = false, surfaces = false, objects = false;
+    std::optional<double> flow;  // seconds, of the surfaces
+};
+
+struct RayKernels {
+    std::shared_ptr<const CameraRayKernels> ofSamples, ofCenters;
+};
+
 class PythonScene {
 public:
     // The last film of this scene, also if it was stopped; null if there is none, or if the last one had no sample.
     std::shared_ptr<PythonFilm> lastFilm() const { return lastFilm_; }
 
-    std::shared_ptr<PythonFilm> render(const nb::dict& values, const std::shared_ptr<PythonFilm>& resumed, bool withIds,
+    std::shared_ptr<PythonFilm> render(const nb::dict& values, const std::shared_ptr<PythonFilm>& resumed, const Wanted& wanted,
                                        nb::object progress)
     {
         refuseFork();
-        const RenderJob options = jobOf(values);
+        RenderJob options = jobOf(values);
+        options.flow = wanted.flow;
         Watcher watcher(std::move(progress));
         {
             const nb::gil_scoped_release release;
             const std::lock_guard lock(rendering);
-            lastFilm_ = renderWithin(options, resumed.get(), withIds, watcher);
+            lastFilm_ = renderWithin(options, resumed.get(), wanted, watcher);
         }
         if (watcher.failure()) {
             std::rethrow_exception(watcher.failure());
@@ -148,16 +161,16 @@ public:
     }
 
 private:
-    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, bool withIds, Watcher& watcher)
+    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, const Wanted& wanted, Watcher& watcher)
     {
         if (session_ && session_->serves(options)) {
             session_->pose(options.edits, options.at);  // what the scene refuses changes nothing
         }
         // None stays if anything is thrown. The kernels go before the device, which the session has.
         std::unique_ptr<SceneSession> session = std::move(session_);
-        std::shared_ptr<const CameraRayKernels> rayKernels = std::move(rayKernels_);
+        RayKernels rayKernels = std::move(rayKernels_);
         if (!session || !session->serves(options)) {
-            rayKernels.reset();
+            rayKernels = {};
             session.reset();
             session = std::make_unique<SceneSession>(options);
         }
@@ -193,10 +206,23 @@ private:
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
         film->setDenoising(std::move(rendered.denoising));
-        if (withIds) {
-            Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels);
+        if (wanted.ids) {
+            Identifier identifier(renderer, session->prepared(), frame.camera, rayKernels.ofSamples);
             film->identify(identifier);
-            rayKernels = identifier.kernels();
+            rayKernels.ofSamples = identifier.kernels();
+        }
+        if (wanted.surfaces || wanted.objects) {
+            const SceneInstances instances(session->prepared().scene);
+            const std::optional<Flow> flow = makeFlow(*session, options, frame);
+            SurfaceTracer tracer(renderer, session->prepared(), frame.camera, instances, flow ? &*flow : nullptr, rayKernels.ofCenters);
+            const glm::uvec2 size(film->film().width, film->film().height);
+            if (wanted.surfaces) {
+                film->setSurfaces(tracer.rows(size.x, 0, size.y));
+            }
+            if (wanted.objects) {
+                film->setObjects(describeSeenInstances(tracer, instances, size, "").dump());
+            }
+            rayKernels.ofCenters = tracer.kernels();
         }
         keep(std::move(session), std::move(rayKernels));
         if (rendered.denoisingError) {
@@ -206,14 +232,14 @@ private:
         return film;
     }
 
-    void keep(std::unique_ptr<SceneSession> session, std::shared_ptr<const CameraRayKernels> rayKernels)
+    void keep(std::unique_ptr<SceneSession> session, RayKernels rayKernels)
     {
         session_ = std::move(session);
         rayKernels_ = std::move(rayKernels);
     }
 
     std::unique_ptr<SceneSession> session_;
-    std::shared_ptr<const CameraRayKernels> rayKernels_;  // of the session's device
+    RayKernels rayKernels_;  // of the session's device
     std::shared_ptr<PythonFilm> lastFilm_;
 };
 
@@ -283,9 +309,10 @@ NB_MODULE(_glim, module)
 {
     nb::register_exception_translator(translate);
     bindFilm(module);
+    nb::class_<Wanted>(module, "Wanted").def(nb::init<bool, bool, bool, std::optional<double>>());
     nb::class_<PythonScene>(module, "Scene")
         .def(nb::init<>())
-        .def("render", &PythonScene::render, nb::arg("values"), nb::arg("resumed").none(), nb::arg("ids"), nb::arg("progress").none())
+        .def("render", &PythonScene::render, nb::arg("values"), nb::arg("resumed").none(), nb::arg("wanted"), nb::arg("progress").none())
         .def_prop_ro("last_film", &PythonScene::lastFilm);
     module.def("merge", &merge, nb::arg("films"), nb::call_guard<nb::gil_scoped_release>());
     module.def("devices", &devices);

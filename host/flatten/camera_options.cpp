@@ -41,6 +41,11 @@ void addProjection(const Projection& projection, OptionValues& words)
     if (projection.model == Model::Equirectangular) {
         words.emplace_back("projection", "equirectangular");
     }
+    if (projection.crop) {
+        const auto& [corner, size, whole] = *projection.crop;
+        words.emplace_back("crop", numbersText(std::array<double, 4>{static_cast<double>(corner.x), static_cast<double>(corner.y),
+                                                                     static_cast<double>(size.x), static_cast<double>(size.y)}));
+    }
 }
 
 OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)

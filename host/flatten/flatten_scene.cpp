@@ -225,7 +225,22 @@ vec2 planeOf(const Projection& projection, const vec2& own)
     return projection.intrinsics ? vec2(0.5 * projection.intrinsics->size / projection.intrinsics->focal) : own;
 }
 
-FlatProjection flattenProjection(const Projection& projection, const vec2& plane, float aspectRatio)
+// Where the film lies on that of the whole picture: half of its sides, and its middle.
+struct FilmPart {
+    glm::dvec2 scale{1.0}, middle{0.0};
+};
+
+FilmPart placeFilm(const std::optional<Crop>& crop)
+{
+    if (!crop) {
+        return {};
+    }
+    const glm::dvec2 whole(crop->whole), size(crop->size), middle = (2.0 * glm::dvec2(crop->corner) + size) / whole - 1.0;
+    return {size / whole, {middle.x, -middle.y}};
+}
+
+// `aspectRatio`: of the whole picture.
+FlatProjection flattenProjection(const Projection& projection, const FilmPart& part, const vec2& plane, float aspectRatio)
 {
     constexpr std::array kModels{kShiftedFilm, kRadialTangential, kFisheye, kEquirectangular};
     if (projection == Projection()) {
@@ -237,8 +252,8 @@ FlatProjection flattenProjection(const Projection& projection, const vec2& plane
     const glm::dvec2 shift = 2.0 * projection.shift * (aspect > 1.0 ? glm::dvec2(1.0, aspect) : glm::dvec2(1.0 / aspect, 1.0));
     FlatProjection flat{};
     flat.model = kModels[static_cast<std::size_t>(projection.model)];
-    flat.shift = vec2(shift - glm::dvec2(2.0 * center.x - 1.0, 1.0 - 2.0 * center.y));
-    flat.scale = plane;
+    flat.shift = vec2((shift - glm::dvec2(2.0 * center.x - 1.0, 1.0 - 2.0 * center.y) + part.middle) / part.scale);
+    flat.scale = plane * vec2(part.scale);
     const auto& d = projection.distortion;
     const bool isFisheye = projection.model == Projection::Model::Fisheye;
     flat.radial = isFisheye ? vec4(d[0], d[1], d[2], d[3]) : vec4(d[0], d[1], d[4], d[5]);
@@ -395,9 +410,12 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
 {
     const bool perspective = camera.kind == Camera::Kind::Perspective;
     const float halfHeight = perspective ? std::tan(0.5F * camera.yfov) : camera.halfHeight;
-    const float halfWidth = perspective ? halfHeight * aspectRatio : std::copysign(halfHeight * aspectRatio, camera.halfWidth);
+    const std::optional<Crop>& crop = camera.projection.crop;
+    const float aspect = crop ? static_cast<float>(crop->whole.x) / static_cast<float>(crop->whole.y) : aspectRatio;
+    const float halfWidth = perspective ? halfHeight * aspect : std::copysign(halfHeight * aspect, camera.halfWidth);
     const vec2 plane = planeOf(camera.projection, vec2(halfWidth, halfHeight));
-    const vec2 axes = isSpherical(camera.projection) ? vec2(1.0F) : plane;
+    const FilmPart part = placeFilm(crop);
+    const vec2 axes = isSpherical(camera.projection) ? vec2(1.0F) : plane * vec2(part.scale);
     return {camera.position,
             camera.right * axes.x,
             camera.up * axes.y,
@@ -407,7 +425,7 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
             camera.up * lens.radius,
             1.0F / lens.focalDistance,
             0,
-            flattenProjection(camera.projection, plane, aspectRatio)};
+            flattenProjection(camera.projection, part, plane, aspect)};
 }
 
 }  // namespace glim

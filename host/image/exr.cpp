@@ -133,6 +133,7 @@ void readHeader(const fs::path& path, const Imf::Header& header, Image& image)
     const auto gap = [](std::int64_t from, std::int64_t to) { return static_cast<std::uint32_t>(std::max(to - from, std::int64_t{0})); };
     image.rowsAbove = gap(header.displayWindow().min.y, window.min.y);
     image.columnsLeft = gap(header.displayWindow().min.x, window.min.x);
+    image.columnsRight = gap(window.max.x, header.displayWindow().max.x);
     image.rowsBelow = gap(window.max.y, header.displayWindow().max.y);
     readAttributes(header, image);
 }
@@ -238,9 +239,10 @@ private:
 
 Imf::Header headerOf(const Image& image)
 {
-    const auto right = static_cast<int>(image.width) - 1, top = static_cast<int>(image.rowsAbove);
-    const int bottom = top + static_cast<int>(image.height) - 1;
-    Imf::Header header({{0, 0}, {right, bottom + static_cast<int>(image.rowsBelow)}}, {{0, top}, {right, bottom}});
+    const auto left = static_cast<int>(image.columnsLeft), top = static_cast<int>(image.rowsAbove);
+    const int right = left + static_cast<int>(image.width) - 1, bottom = top + static_cast<int>(image.height) - 1;
+    Imf::Header header({{0, 0}, {right + static_cast<int>(image.columnsRight), bottom + static_cast<int>(image.rowsBelow)}},
+                       {{left, top}, {right, bottom}});
     header.compression() = Imf::ZIP_COMPRESSION;
     header.zipCompressionLevel() = 2;                       // of a film, level 4 takes a fifth more time and 1 % less space
     Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with the white D65
@@ -264,11 +266,10 @@ Imf::Header headerOf(const Image& image)
     return header;
 }
 
-// The slices of `rows`, whose first row is number `first` of the picture.
-Imf::FrameBuffer frameOf(const Image& rows, std::uint32_t first)
+// The slices of `rows`, whose first pixel is at `corner` of the display window.
+Imf::FrameBuffer frameOf(const Image& rows, const Imath::V2i& corner)
 {
-    const auto x = static_cast<int>(rows.width) - 1, y = static_cast<int>(first);
-    const Imath::Box2i window({0, y}, {x, y + static_cast<int>(rows.height) - 1});
+    const Imath::Box2i window(corner, corner + Imath::V2i(static_cast<int>(rows.width) - 1, static_cast<int>(rows.height) - 1));
     Imf::FrameBuffer frame;
     for (const auto& [name, plane] : rows.channels) {
         frame.insert(name, sliceOf(Imf::FLOAT, plane, window));
@@ -330,7 +331,7 @@ struct ExrWriter::Output {
         : path(target),
           atomic(target),
           stream(atomic, target.string()),
-          row(picture.rowsAbove)
+          corner(static_cast<int>(picture.columnsLeft), static_cast<int>(picture.rowsAbove))
     {
         guarded(path, MessageId::FileUnwritable, [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
         std::istringstream header(stream.endHeader());
@@ -341,7 +342,7 @@ struct ExrWriter::Output {
     AtomicFile atomic;
     ExrStream stream;
     std::optional<Imf::OutputFile> file;
-    std::uint32_t row;  // the next one
+    Imath::V2i corner;  // of the next row
     std::optional<HeaderSeal> seal;
 };
 
@@ -354,10 +355,10 @@ ExrWriter::~ExrWriter() = default;
 void ExrWriter::write(const Image& rows)
 {
     guarded(output_->path, MessageId::FileUnwritable, [&] {
-        output_->file->setFrameBuffer(frameOf(rows, output_->row));
+        output_->file->setFrameBuffer(frameOf(rows, output_->corner));
         output_->file->writePixels(static_cast<int>(rows.height));
     });
-    output_->row += rows.height;
+    output_->corner.y += static_cast<int>(rows.height);
 }
 
 void ExrWriter::commit()

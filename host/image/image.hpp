@@ -14,7 +14,7 @@ namespace glim {
 struct Image {
     std::uint32_t width = 0, height = 0;
     std::uint32_t rowsAbove = 0, rowsBelow = 0;                                      // of the display window, which the image lacks
-    std::uint32_t columnsLeft = 0;                                                   // the same, of files that are read
+    std::uint32_t columnsLeft = 0, columnsRight = 0;                                 // the same
     std::map<std::string, std::vector<float>> channels;                              // "R", "albedo.G" ...; row 0 at the top, left to right
     std::map<std::string, std::vector<std::uint32_t>> counts;                        // channels of integers, which float32 might round
     std::map<std::string, std::variant<double, std::string, glm::mat4>> attributes;  // matrices are written, but not read

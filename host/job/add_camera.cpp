@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace glim {
 namespace {
@@ -90,6 +91,19 @@ Option addIntrinsics(OptionTable& table, const std::string& name, const std::str
     });
 }
 
+// Of a picture whose size is not known yet.
+Crop parseCrop(const OptionValue& value)
+{
+    const std::string expected = "whole numbers: column, row, and a width and a height of 1 or more";
+    const std::vector<double> numbers = parseNumbers("--crop", value, {4}, expected);
+    const auto isCount = [](double number) { return number >= 0.0 && number <= kMaxSide && number == std::floor(number); };
+    if (!std::ranges::all_of(numbers, isCount) || numbers[2] < 1.0 || numbers[3] < 1.0) {
+        throw UsageError(MessageId::OutOfRange,
+                         {part::place("--crop"), ": ", part::quoted(value.text()), ": expected ", part::expected(expected)});
+    }
+    return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
 Option addDistortion(OptionTable& table, const std::string& name, const std::string& unit, const std::string& help,
                      const std::vector<std::size_t>& counts, Projection::Model model, Projection& projection)
 {
@@ -130,6 +144,8 @@ void addProjection(OptionTable& table, PictureOptions& options)
                                        const std::vector<double> xy = parseNumbers("--shift", value, {2}, "two numbers, as in 0.1,0");
                                        projection.shift = {xy[0], xy[1]};
                                    });
+    table.add("--crop", "X,Y,W,H", "Render only W x H pixels of the picture, from column X and row Y on [all]",
+              [&projection](const OptionValue& value) { projection.crop = parseCrop(value); });
     const Option kind = addChoice(
         table, "--projection", "P", "camera, as the file says, or equirectangular: 360 degrees [camera]", {"camera", "equirectangular"},
         [&projection](std::size_t choice) { projection.model = choice == 0 ? projection.model : Projection::Model::Equirectangular; });
@@ -148,7 +164,7 @@ Camera makeCamera(const Scene& scene, const PictureOptions& options)
 {
     Camera camera = applyField(findCamera(scene, options.camera), options.field);
     camera = options.pose ? placeCamera(camera, *options.pose, scene.origin) : camera;
-    return applyProjection(camera, options.projection, options.size);
+    return applyProjection(camera, options.projection, options.size.value_or(defaultSize(camera)));
 }
 
 }  // namespace glim

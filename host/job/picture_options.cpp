@@ -189,7 +189,8 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
 {
     RenderSettings settings = options.settings;
-    const glm::uvec2 size = options.size.value_or(defaultSize(camera));
+    const std::optional<Crop>& crop = camera.projection.crop;
+    const glm::uvec2 size = crop ? crop->size : options.size.value_or(defaultSize(camera));
     settings.width = size.x;
     settings.height = size.y;
     if (settings.rows && settings.rows->second > size.y) {

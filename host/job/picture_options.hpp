@@ -64,7 +64,7 @@ void addCourseRule(OptionTable& table, RenderSettings& settings);
 LoadOptions makeLoadOptions(const PictureOptions& options);
 // The camera that the options choose, placed where they say and with the angle that they say. Throws InputError if that cannot be.
 Camera makeCamera(const Scene& scene, const PictureOptions& options);
-// The settings with a size: from the options, or else from the camera.
+// The settings with a size: that of the camera's crop, or of the options, or else by the camera.
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);
 
 }  // namespace glim

@@ -56,6 +56,12 @@ void addOutput(OptionTable& table, RenderJob& options)
     table.option("--denoised").needs(denoise);
     table.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
     table.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
+    const Option surfaces =
+        table.addPath("--surfaces", "S.exr", "Also write position, uv, distance and instance at each pixel's centre", options.surfaces);
+    addNumber<double>(table, {"--flow", "SECONDS", "With --surfaces: optical flow to that much later and earlier", 1e-9, 1e6, "off"},
+                      [&options](double seconds) { options.flow = seconds; })
+        .needs(surfaces);
+    table.addPath("--objects", "O.json", "Also write names, boxes, masks and visible shares of instances, with COCO's keys", options.objects);
     table.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);
     addCheckpoint(table, options.checkpoint);
     addProgress(table, options.progress);

@@ -23,12 +23,14 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings,
-            describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at)};
+            describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),
+            camera.projection.crop};
 }
 
 void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame)
 {
     film.camera = frame.description;
+    film.crop = frame.crop;
     film.sceneFile = options.scene.string();
     film.showsBackground = options.environmentBackground;
     film.identity.settings += describeCamera(options.pose, options.field, options.lens, options.projection);

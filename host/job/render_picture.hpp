@@ -16,7 +16,8 @@ namespace glim {
 struct PictureFrame {
     FlatCamera camera;
     RenderSettings settings;
-    std::string description;  // of the camera (film_camera.hpp)
+    std::string description;   // of the camera (film_camera.hpp)
+    std::optional<Crop> crop;  // of the picture
 };
 
 // The session must be posed at the picture's time. Throws InputError for a camera that the scene lacks and for a picture that the device

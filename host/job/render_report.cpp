@@ -146,6 +146,11 @@ Json suspectsOf(const RenderReport& report)
 
 std::uint32_t lightPathsOf(const Film& film) { return lightPathCount(film.width, film.rowsAbove + film.height + film.rowsBelow); }
 
+Json cropOf(const Film& film)
+{
+    return film.crop ? Json::array({film.crop->corner.x, film.crop->corner.y, film.crop->size.x, film.crop->size.y}) : Json();
+}
+
 Json rowsOf(const Film& film)
 {
     const bool all = film.rowsAbove == 0 && film.rowsBelow == 0;
@@ -164,6 +169,7 @@ Json statisticsOf(const RenderReport& report)
     return {{"scene", report.options.scene.string()},
             {"size", Json::array({report.film.width, report.film.height})},
             {"rows", rowsOf(report.film)},
+            {"crop", cropOf(report.film)},
             {"sampleRange", Json::array({report.film.sampleRanges[0].first, report.film.sampleRanges[0].second})},
             {"settings", report.film.identity.settings},
             {"schedule", getName(s.schedule)},

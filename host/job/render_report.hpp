@@ -23,7 +23,7 @@ struct RenderReport {
     const DeviceDescription& device;
     std::string stopReason;  // "samples", "time", "tolerance", "target", "unknown error", or the signal's name
     double writeSeconds;
-    std::optional<double> idSeconds;  // of --ids
+    std::optional<double> idSeconds;  // of --ids, --surfaces and --objects
     std::vector<Suspect> suspects;
     std::optional<ControlBias> bias;     // of adaptive renders
     std::optional<Denoising> denoising;  // of --denoise

@@ -8,12 +8,13 @@
 #include "host/job/output_lock.hpp"
 #include "host/job/render_picture.hpp"
 #include "host/job/render_report.hpp"
+#include "host/job/surface_files.hpp"
 #include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
-#include "host/render/identify.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
@@ -31,11 +32,15 @@ void checkTargets(const RenderJob& options, const std::vector<std::filesystem::p
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
     }
-    if (options.ids) {
-        checkTarget(*options.ids, ".exr", inputs);
+    for (const auto* file : {&options.ids, &options.surfaces}) {
+        if (*file) {
+            checkTarget(**file, ".exr", inputs);
+        }
     }
-    if (options.stats) {
-        checkTarget(*options.stats, ".json", inputs);
+    for (const auto* file : {&options.objects, &options.stats}) {
+        if (*file) {
+            checkTarget(**file, ".json", inputs);
+        }
     }
 }
 
@@ -176,7 +181,6 @@ private:
     ExitCode renderShot(const RenderJob& options);
     std::optional<StoredFilm> readOutput(const RenderJob& options, const PictureFrame& frame) const;
     bool keep(const RenderJob& options, const StoredFilm& stored) const;
-    std::optional<double> writeIdentities(const RenderJob& options, const FlatCamera& camera, const Film& film);
     ExitCode writeShot(const RenderJob& options, const PictureFrame& frame, RenderedFilm rendered);
 
     std::ostream& reports_;
@@ -185,7 +189,7 @@ private:
     const InterruptWatch* watch_ = nullptr;  // of the request under way
     SceneSession session_;
     SequencePlace place_;
-    std::shared_ptr<const CameraRayKernels> rayKernels_;
+    SurfaceFiles surfaceFiles_;
 };
 
 RenderJob SequenceRenderer::makeOptions(const Shot& shot) const
@@ -195,7 +199,7 @@ RenderJob SequenceRenderer::makeOptions(const Shot& shot) const
         for (std::filesystem::path& file : options.pictures) {
             file = numberedPath(file, shot.number);
         }
-        for (std::optional<std::filesystem::path>* file : {&options.output, &options.rates, &options.ids, &options.stats}) {
+        for (std::optional<std::filesystem::path>* file : {&options.output, &options.rates, &options.ids, &options.surfaces, &options.objects, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -312,7 +316,9 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
 // Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
 bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) const
 {
-    if (!isWhole(stored, options) || (options.ids && !isThere(*options.ids)) || (options.stats && !isThere(*options.stats))) {
+    const auto isMissing = [](const std::optional<std::filesystem::path>* file) { return *file && !isThere(**file); };
+    if (!isWhole(stored, options) ||
+        std::ranges::any_of(std::array{&options.ids, &options.surfaces, &options.objects, &options.stats}, isMissing)) {
         return false;
     }
     if (!options.denoise) {
@@ -324,19 +330,6 @@ bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) 
     }
     reports_ << escaped(options.mainFile().string()) << ": is whole and was kept\n";
     return true;
-}
-
-// Seconds that it took, if it was asked for.
-std::optional<double> SequenceRenderer::writeIdentities(const RenderJob& options, const FlatCamera& camera, const Film& film)
-{
-    if (!options.ids) {
-        return std::nullopt;
-    }
-    const auto start = Clock::now();
-    Identifier identifier(session_.renderer(), session_.prepared(), camera, rayKernels_);
-    writeIds(*options.ids, identifier, film);
-    rayKernels_ = identifier.kernels();
-    return secondsSince(start);
 }
 
 ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFrame& frame, RenderedFilm rendered)
@@ -359,7 +352,7 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
         say(MessageId::NotDenoised,
             {"the picture is not denoised: ", watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"});
     }
-    const std::optional<double> idSeconds = writeIdentities(options, frame.camera, film);
+    const std::optional<double> idSeconds = surfaceFiles_.write(session_, options, frame, film);
     // Before the control, whose samples are no suspects.
     std::vector<Suspect> suspects = tryTo("find the brightest samples", [&] { return findSuspects(session_.renderer(), film); });
     const auto bias = tryTo("measure the bias", [&] { return measureBias(session_.renderer(), film, *watch_); });
@@ -406,7 +399,8 @@ ExitCode RenderSession::render(const RenderJob& options)
     std::unique_ptr<SequenceRenderer> renderer = std::move(renderer_);  // none stays if anything is thrown
     if (!renderer || !renderer->serves(options)) {
         renderer.reset();                                                                  // so that no two scenes are on the device
-        const bool isOnePicture = !isSequence(options.sequence, options) && !options.ids;  // ids need the primitives afterwards
+        const bool needsSurfaces = options.ids || options.surfaces || options.objects;  // afterwards
+        const bool isOnePicture = !isSequence(options.sequence, options) && !needsSurfaces;
         renderer = std::make_unique<SequenceRenderer>(options, reports_, isOnePicture ? use_ : SceneUse::Again);
     }
     const ExitCode code = renderer->renderAll(options, watch);

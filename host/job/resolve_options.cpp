@@ -79,7 +79,7 @@ const Rule<PictureOptions> kPictureRules[] = {
      "--adaptive course has a rule of its own; expected ",
      "--adaptive neighbours or off"},
     {{"--adaptive", "--target-rmse", "--target-relmse"}, isOfRows, MessageId::Conflict, "needs the whole picture; expected ", "no --rows"},
-    {{"--ids", "--suspects", "--replay"}, isOfRows, MessageId::Conflict, "is of the whole picture; expected ", "no --rows"},
+    {{"--ids", "--surfaces", "--objects", "--suspects", "--replay"}, isOfRows, MessageId::Conflict, "is of the whole picture; expected ", "no --rows"},
 };
 
 bool isReplay(const RenderJob& job) { return job.replay.has_value(); }
@@ -89,14 +89,16 @@ bool isDenoised(const RenderJob& job) { return job.denoise; }
 bool listsSuspects(const RenderJob& job) { return job.settings.suspects > 0; }
 bool keepsNoFilm(const RenderJob& job) { return !job.output && !job.replay; }
 bool isByAllCameras(const RenderJob& job) { return job.camera == "all"; }
+bool isAtRest(const RenderJob& job) { return !firstTime(job.sequence, job); }
 bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
 
 const Rule<RenderJob> kRenderRules[] = {
-    {{"--output", "--image", "--rates", "--ids", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse", "--checkpoint",
+    {{"--output", "--image", "--rates", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse", "--checkpoint",
       "--resume"},
      isReplay,
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
+    {{"--flow"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--replay"}, isReplayOfSequence, MessageId::Conflict, "expected ", "the options of one picture"},
     {{"--frames", "--look-from", "--pose-gltf", "--pose-opencv"},
      isByAllCameras,
@@ -303,7 +305,7 @@ bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
 }
 
 // The options that name the files of a picture.
-constexpr const char* kOutputs[] = {"--output", "--image", "--rates", "--ids", "--stats"};
+constexpr const char* kOutputs[] = {"--output", "--image", "--rates", "--ids", "--surfaces", "--objects", "--stats"};
 
 void checkNames(const OptionTable& table, const RenderJob& job)
 {
@@ -338,8 +340,17 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
                               std::to_string(longest), " pixels a side; expected ", part::expected("a smaller --size")});
         }
     }
-    if (job.ids && job.output && mayBeSame(*job.ids, *job.output)) {
-        refuse(table, "--ids", MessageId::Duplicate, {"expected ", part::expected("another file than that of --output")});
+    const std::pair<const char*, const std::optional<std::filesystem::path>*> others[] = {
+        {"--output", &job.output}, {"--ids", &job.ids}, {"--surfaces", &job.surfaces}, {"--objects", &job.objects}, {"--stats", &job.stats}};
+    for (const auto& [name, file] : others) {
+        for (const auto& [other, before] : others) {
+            if (file == before) {
+                break;
+            }
+            if (*file && *before && mayBeSame(**file, **before)) {
+                refuse(table, name, MessageId::Duplicate, {"expected ", part::expected(std::string("another file than that of ") + other)});
+            }
+        }
     }
 }
 

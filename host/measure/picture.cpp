@@ -40,7 +40,8 @@ void clearUnknown(std::vector<glm::vec3>& variance, const std::vector<std::uint3
 
 Picture makePicture(const Film& film)
 {
-    Picture picture{film.width, film.height, {}, {}, film.rowsAbove, 0};
+    const glm::uvec2 corner = film.crop ? film.crop->corner : glm::uvec2(0);
+    Picture picture{film.width, film.height, {}, {}, film.rowsAbove + corner.y, corner.x};
     for (const PixelMoments& pixel : shownPixels(film)) {
         picture.radiance.push_back(pixel.mean);
         picture.variance.push_back(computeVarianceOfMean(pixel));

@@ -23,15 +23,16 @@ RenderSettings makeRaySettings(RenderSettings settings)
 
 }  // namespace
 
-CameraRayKernels::CameraRayKernels(Device& device, const Specialization& constants)
+CameraRayKernels::CameraRayKernels(Device& device, const Specialization& constants, RayPlace rayPlace)
     : specialization(constants),
+      place(rayPlace),
       layout(device, kernelSlots(), sizeof(Pass)),
-      generateRays(layout, kernels::generate_rays, constants),
+      generateRays(layout, place == RayPlace::Samples ? kernels::generate_rays : kernels::generate_center_rays, constants),
       traceClosest(layout, kernels::trace_closest, constants)
 {}
 
 CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene& scene, const FlatCamera& camera,
-                       const RenderSettings& settings, std::shared_ptr<const CameraRayKernels> kernels)
+                       const RenderSettings& settings, std::shared_ptr<const CameraRayKernels> kernels, RayPlace place)
     : device_(device),
       settings_(makeRaySettings(settings)),
       paths_(shared.paths),
@@ -39,9 +40,10 @@ CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene&
       passSize_(scene, settings_, paths_.capacity()),
       parameters_(device, scene, camera, settings_),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + paths_.capacity() * sizeof(ChosenPixel)),
-      kernels_(kernels && serves(kernels->specialization, specialize(scene, camera, settings_, device.description()))
+      kernels_(kernels && kernels->place == place &&
+                       serves(kernels->specialization, specialize(scene, camera, settings_, device.description()))
                    ? std::move(kernels)
-                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_, device.description()))),
+                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_, device.description()), place)),
       even_(bind(0)),
       odd_(bind(1))
 {
@@ -86,11 +88,29 @@ std::vector<PathHit> CameraRays::trace(std::span<const std::uint32_t> pixels, st
     pass.pixelCount = static_cast<std::uint32_t>(pixels.size());
     pass.firstSample = firstSample;
     pass.sampleCount = sampleCount;
-    const std::uint32_t rays = pass.pixelCount * sampleCount, groups = (rays + settings_.workgroup - 1) / settings_.workgroup;
-    paths_.setRounds(makeRounds(rays, groups));
+    const std::uint32_t rays = pass.pixelCount * sampleCount;
+    paths_.setRounds(makeRounds(rays, countGroups(rays)));
+    return trace(pass, false);
+}
+
+std::vector<PathHit> CameraRays::trace(std::span<const std::uint32_t> pixels, std::span<const PathRay> rays)
+{
+    choose(pixels);
+    Pass pass{};
+    pass.pixelCount = static_cast<std::uint32_t>(pixels.size());
+    pass.sampleCount = 1;
+    paths_.queueRays(rays, countGroups(pass.pixelCount));
+    return trace(pass, true);
+}
+
+std::vector<PathHit> CameraRays::trace(const Pass& pass, bool areQueued)
+{
+    const std::uint32_t rays = pass.pixelCount * pass.sampleCount, groups = countGroups(rays);
     std::map<std::string, KernelStatistics> statistics;
     Recording recording(device_, statistics);
-    recording.dispatch(kernels_->generateRays, odd_, pass, groups);
+    if (!areQueued) {
+        recording.dispatch(kernels_->generateRays, odd_, pass, groups);
+    }
     recording.dispatch(kernels_->traceClosest, even_, pass, groups);
     recording.finish();
     refuseBrokenStatus(device_.description(), paths_);

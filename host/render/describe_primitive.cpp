@@ -25,43 +25,30 @@ std::string describePunctual(const Scene& scene, const FlatLight& flat)
     return kind + " light " + named(found->name);
 }
 
-PrimitiveDescription describePart(const Scene& scene, const MeshInstance& instance, std::optional<std::uint32_t> triangle,
-                                  std::optional<std::uint32_t> point)
-{
-    const std::uint32_t material = scene.meshes[instance.mesh].material;
-    return {"instance " + named(instance.name), triangle, point, named(scene.materials[material].name), instance.node, material};
-}
-
-PrimitiveDescription describePrimitive(const Scene& scene, const Primitives& primitives, std::uint32_t id)
+// `id`: of a primitive that belongs to no shared mesh.
+ScenePart findPart(const Primitives& primitives, std::uint32_t id)
 {
     if (id >= primitives.triangles.size()) {
-        const PlacedSphere& placed = primitives.spheres[id - primitives.triangles.size()];
-        if (placed.point != kNoIndex) {
-            PrimitiveDescription part = describePart(scene, scene.instances[placed.object], std::nullopt, placed.point);
-            part.isLine = !scene.meshes[scene.instances[placed.object].mesh].lines.empty();
-            return part;
-        }
-        const Sphere& sphere = scene.spheres[placed.object - scene.instances.size()];
-        return {"sphere " + named(sphere.name),
-                std::nullopt,
-                std::nullopt,
-                named(scene.materials[sphere.material].name),
-                sphere.node,
-                sphere.material};
+        const PlacedSphere placed = primitives.spheres[id - primitives.triangles.size()];
+        return {placed.object, 0, placed.point};
     }
-    const std::uint32_t index = primitives.findInstance(id);
-    const MeshInstance& instance = scene.instances[index];
-    return describePart(scene, instance, id - primitives.firstTriangles[index], std::nullopt);
+    const std::uint32_t instance = primitives.findInstance(id);
+    return {instance, id - primitives.firstTriangles[instance]};
 }
 
-PrimitiveDescription describeInstancedPrimitive(const PreparedScene& prepared, std::uint32_t ref)
+PrimitiveDescription describePart(const Scene& scene, const ScenePart& part)
 {
-    const std::uint32_t index = findPlacement(prepared.flat, ref);
-    const uvec4* instance = &prepared.flat.instances[std::size_t{index} * kInstanceTexels];
-    const std::uint32_t shared = prepared.flat.primitiveRefs[std::size_t{ref - instance[1].w} * kPrimitiveRefTexels].w;
-    const Placement& placement = prepared.primitives.placements[index];
-    const MeshInstance& placed = prepared.scene.instances[placement.instance];
-    return describePart(prepared.scene, placed, shared - prepared.primitives.sharedMeshes[placement.sharedMesh].firstId, std::nullopt);
+    if (part.object >= scene.instances.size()) {
+        const Sphere& sphere = scene.spheres[part.object - scene.instances.size()];
+        return {"sphere " + named(sphere.name), {}, {}, named(scene.materials[sphere.material].name), sphere.node, sphere.material};
+    }
+    const MeshInstance& instance = scene.instances[part.object];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    PrimitiveDescription description{
+        "instance " + named(instance.name), {}, {}, named(scene.materials[mesh.material].name), instance.node, mesh.material};
+    (mesh.isCloud ? description.point : description.triangle) = mesh.isCloud ? part.point : part.triangle;
+    description.isLine = mesh.isCloud && !mesh.lines.empty();
+    return description;
 }
 
 }  // namespace
@@ -82,13 +69,25 @@ std::uint32_t findPlacement(const FlatScene& flat, std::uint32_t ref)
     return static_cast<std::uint32_t>(after - indices.begin() - 1);
 }
 
+ScenePart findPart(const PreparedScene& prepared, std::uint32_t ref)
+{
+    if (ref == kNoPrimitiveRef) {
+        return {};
+    }
+    const Primitives& primitives = prepared.primitives;
+    const auto idOf = [&prepared](std::uint32_t any) { return prepared.flat.primitiveRefs[std::size_t{any} * kPrimitiveRefTexels].w; };
+    if (isInstanced(prepared.flat, ref)) {
+        const std::uint32_t index = findPlacement(prepared.flat, ref);
+        const Placement& placement = primitives.placements[index];
+        const std::uint32_t shared = idOf(ref - prepared.flat.instances[std::size_t{index} * kInstanceTexels + 1].w);
+        return {placement.instance, shared - primitives.sharedMeshes[placement.sharedMesh].firstId};
+    }
+    return findPart(primitives, idOf(ref));
+}
+
 PrimitiveDescription describePrimitive(const PreparedScene& prepared, std::uint32_t ref)
 {
-    if (isInstanced(prepared.flat, ref)) {
-        return describeInstancedPrimitive(prepared, ref);
-    }
-    const std::uint32_t id = prepared.flat.primitiveRefs[std::size_t{ref} * kPrimitiveRefTexels].w;
-    return describePrimitive(prepared.scene, prepared.primitives, id);
+    return describePart(prepared.scene, findPart(prepared, ref));
 }
 
 std::string describeLight(const PreparedScene& prepared, std::uint32_t light)
@@ -98,7 +97,7 @@ std::string describeLight(const PreparedScene& prepared, std::uint32_t light)
         return "environment";
     }
     if ((source.kind & kLightKindMask) <= kSphereLight) {
-        return describePrimitive(prepared.scene, prepared.primitives, source.primitive).object;
+        return describePart(prepared.scene, findPart(prepared.primitives, source.primitive)).object;
     }
     return describePunctual(prepared.scene, source);
 }

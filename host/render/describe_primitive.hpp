@@ -17,6 +17,15 @@ struct PrimitiveDescription {
     bool isLine = false;                // and no point
 };
 
+// What a ray has met: a triangle, a point or a line of one of the scene's instances, or, behind these, of one of its spheres.
+struct ScenePart {
+    std::uint32_t object = kNoIndex;  // nothing
+    std::uint32_t triangle = 0;       // of the object, as in Primitives: those that nothing can meet do not count
+    std::uint32_t point = kNoIndex;   // or line
+};
+
+ScenePart findPart(const PreparedScene& prepared, std::uint32_t ref);
+
 // As in: instance "floor", triangle 3.
 std::string toText(const PrimitiveDescription& primitive);
 

@@ -1,9 +1,11 @@
 // A picture with its variance, its AOVs and its identity.
 #pragma once
 
+#include "host/scene/projection.hpp"
 #include "shaders/shared/pixel_moments.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -34,7 +36,8 @@ struct SplatMoments {
 
 struct Film {
     std::uint32_t width = 0, height = 0;
-    std::uint32_t rowsAbove = 0, rowsBelow = 0;                         // of the picture, which the film lacks
+    std::uint32_t rowsAbove = 0, rowsBelow = 0;                         // of the picture, or of its crop, which the film lacks
+    std::optional<Crop> crop;                                           // of the picture
     std::vector<PixelMoments> pixels;                                   // row 0 at the top, left to right; of camera paths
     std::vector<SplatMoments> splats;                                   // of light paths; empty if there were none
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint

@@ -29,7 +29,8 @@ Json intrinsicsOf(const Camera& camera, const glm::dvec2& size)
     const double focal = 0.5 * size.y / std::tan(0.5 * static_cast<double>(camera.yfov));
     const Intrinsics own{glm::dvec2(focal), 0.5 * size, size};
     const Intrinsics& used = projection.intrinsics ? *projection.intrinsics : own;
-    const glm::dvec2 center = used.center + projection.shift * std::max(size.x, size.y) * glm::dvec2(-1.0, 1.0);
+    const glm::dvec2 shift = projection.shift * std::max(size.x, size.y) * glm::dvec2(-1.0, 1.0);
+    const glm::dvec2 center = used.center + shift - (projection.crop ? glm::dvec2(projection.crop->corner) : glm::dvec2(0.0));
     return Json::array(
         {Json::array({used.focal.x, 0.0, center.x}), Json::array({0.0, used.focal.y, center.y}), Json::array({0.0, 0.0, 1.0})});
 }
@@ -53,12 +54,16 @@ std::string describeFilmCamera(const Camera& camera, const glm::uvec2& size, con
     if (!isEquirectangular && camera.kind == Camera::Kind::Orthographic) {
         json.set("halfSize", Json::array({camera.halfWidth, camera.halfHeight}));
     } else if (!isEquirectangular) {
-        json.set("K", intrinsicsOf(camera, glm::dvec2(size)));
+        json.set("K", intrinsicsOf(camera, glm::dvec2(projection.crop ? projection.crop->whole : size)));
     }
     if (projection.model == Model::RadialTangential) {
         json.set("distortion", distortion);
     } else if (projection.model == Model::Fisheye) {
         json.set("fisheye", distortion.first(4));
+    }
+    if (const std::optional<Crop>& crop = projection.crop) {
+        json.set("crop", Json::array({crop->corner.x, crop->corner.y, crop->size.x, crop->size.y}));
+        json.set("whole", Json::array({crop->whole.x, crop->whole.y}));
     }
     if (time) {
         json.set("time", *time);

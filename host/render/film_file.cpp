@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
 #include "host/render/film_camera.hpp"
+#include "host/render/film_window.hpp"
 #include "host/text.hpp"
 #include "version.h"
 
@@ -267,10 +268,6 @@ void addDenoised(const DenoisedLayers& denoised, const Run& run, Image& image)
 Image headerOf(const Film& film, const FilmDigests& digests)
 {
     Image image;
-    image.width = film.width;
-    image.height = film.height;
-    image.rowsAbove = film.rowsAbove;
-    image.rowsBelow = film.rowsBelow;
     image.attributes = {{"software", "glim " GLIM_VERSION},
                         {"glim:film", formatOf(film)},
                         {"glim:sceneFile", film.sceneFile},
@@ -295,6 +292,7 @@ Image headerOf(const Film& film, const FilmDigests& digests)
     if (const auto worldToCamera = worldToCameraOf(film.camera)) {
         image.attributes["worldToCamera"] = *worldToCamera;
     }
+    setWindows(image, film);
     return image;
 }
 
@@ -411,10 +409,7 @@ Film filmOfHeader(const fs::path& path, const Image& image)
                                                 ", expected ", part::expected("ascending disjoint ranges such as \"0:256 512:768\""), "."});
     }
     Film film;
-    film.width = image.width;
-    film.height = image.height;
-    film.rowsAbove = image.rowsAbove;
-    film.rowsBelow = image.rowsBelow;
+    takeWindows(path, image, film);
     film.sampleRanges = *ranges;
     film.identity.scene = attribute<std::string>(path, image, "glim:scene");
     film.identity.settings = attribute<std::string>(path, image, "glim:settings");

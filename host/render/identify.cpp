@@ -3,6 +3,7 @@
 #include "host/image/cryptomatte.hpp"
 #include "host/image/exr.hpp"
 #include "host/render/describe_primitive.hpp"
+#include "host/render/film_window.hpp"
 #include "version.h"
 
 #include <algorithm>
@@ -106,25 +107,8 @@ Image Identifier::frame(const Film& film) const
         addMatteAttributes(image, kMatteLayers[kind], manifests_[kind]);
     }
     const Planes channels(image);  // of no pixels yet
-    image.width = film.width;
-    image.height = film.height;
+    setWindows(image, film);
     return image;
-}
-
-std::uint32_t Identifier::objectOf(const PathHit& hit) const
-{
-    if (hit.primitiveRef == kNoPrimitiveRef) {
-        return kNoIndex;
-    }
-    const Primitives& primitives = prepared_.primitives;
-    if (isInstanced(prepared_.flat, hit.primitiveRef)) {
-        return primitives.placements[findPlacement(prepared_.flat, hit.primitiveRef)].instance;
-    }
-    const std::uint32_t id = prepared_.flat.primitiveRefs[std::size_t{hit.primitiveRef} * kPrimitiveRefTexels].w;
-    if (id < primitives.triangles.size()) {
-        return primitives.findInstance(id);
-    }
-    return primitives.spheres[id - primitives.triangles.size()].object;
 }
 
 // The objects that the samples of each pixel show, run by run. The first pixel has the most samples.
@@ -138,7 +122,7 @@ std::vector<std::vector<Share>> Identifier::meet(const Film& film, std::span<con
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const std::uint32_t count = film.pixels[pixels[i]].count;
             for (std::uint32_t k = 0; k < samples && sample + k < count; ++k) {
-                const std::uint32_t object = objectOf(hits[i * samples + k]);
+                const std::uint32_t object = findPart(prepared_, hits[i * samples + k].primitiveRef).object;
                 if (objects[i].empty() || objects[i].back().id != object) {
                     objects[i].push_back({object, 0});
                 }

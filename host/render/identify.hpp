@@ -51,7 +51,6 @@ private:
 
     void addObject(const std::array<std::uint32_t, kKinds>& indices);
     std::string getName(std::size_t kind, std::uint32_t index) const;
-    std::uint32_t objectOf(const PathHit& hit) const;
     std::vector<std::vector<Share>> meet(const Film& film, std::span<const std::uint32_t> pixels);
     void write(std::size_t pixel, std::vector<Share> objects, std::uint32_t samples, Planes& planes) const;
 

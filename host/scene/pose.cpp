@@ -63,7 +63,7 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     return placed;
 }
 
-Camera applyProjection(const Camera& camera, const Projection& projection, const std::optional<glm::uvec2>& size)
+Camera applyProjection(const Camera& camera, const Projection& projection, const glm::uvec2& size)
 {
     using Model = Projection::Model;
     const bool isFisheye = projection.model == Model::Fisheye;
@@ -75,7 +75,17 @@ Camera applyProjection(const Camera& camera, const Projection& projection, const
     Camera changed = camera;
     changed.projection = projection;
     if (projection.intrinsics) {
-        changed.projection.intrinsics->size = glm::dvec2(size.value());
+        changed.projection.intrinsics->size = glm::dvec2(size);
+    }
+    if (std::optional<Crop>& crop = changed.projection.crop) {
+        const glm::uvec2 end = crop->corner + crop->size;
+        if (end.x > size.x || end.y > size.y) {
+            throw InputError(MessageId::OutOfRange,
+                             {part::place("--crop"), ": ends at column ", part::value(std::to_string(end.x)), " and row ",
+                              part::value(std::to_string(end.y)), ", expected a part of the picture of ",
+                              part::expected(std::to_string(size.x) + "x" + std::to_string(size.y)), "."});
+        }
+        crop->whole = size;
     }
     return changed;
 }

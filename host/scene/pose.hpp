@@ -28,8 +28,8 @@ Camera applyField(const Camera& camera, const FieldOfView& field);
 Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sceneOrigin);
 
 // Returns the camera with that projection, in a picture of that size. Throws InputError if an orthographic camera is to have intrinsics or
-// a lens that distorts.
-Camera applyProjection(const Camera& camera, const Projection& projection, const std::optional<glm::uvec2>& size);
+// a lens that distorts, or if the crop is not within the picture.
+Camera applyProjection(const Camera& camera, const Projection& projection, const glm::uvec2& size);
 
 // The pose of a camera at `worldFromCamera`, whose axes times `toGltf` are those of glTF: x right, y up, z backwards. Nothing if the matrix
 // is no rotation and translation.

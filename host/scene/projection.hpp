@@ -18,6 +18,14 @@ struct Intrinsics {
     bool operator==(const Intrinsics&) const = default;
 };
 
+// A rectangle of a picture, in pixels; `corner`: its upper left one.
+struct Crop {
+    glm::uvec2 corner{0}, size{1};
+    glm::uvec2 whole{1};  // the picture's size
+
+    bool operator==(const Crop&) const = default;
+};
+
 struct Projection {
     enum class Model { Straight, RadialTangential, Fisheye, Equirectangular };
 
@@ -26,6 +34,7 @@ struct Projection {
     glm::dvec2 shift{0.0};                 // of the picture on its plane, right and up, in units of its longer side
     // RadialTangential: k1, k2, p1, p2, k3, k4, k5, k6, as OpenCV orders them. Fisheye: k1 to k4.
     std::array<double, 8> distortion{};
+    std::optional<Crop> crop;  // all that is rendered
 
     bool operator==(const Projection&) const = default;
 };

@@ -52,6 +52,29 @@ TEST(FilmCameraTest, KAndPoseProjectWhatAPixelShowsToThePixel)
     }
 }
 
+TEST(FilmCameraTest, KOfACropCountsFromItsCorner)
+{
+    Camera camera;
+    camera.yfov = 1.0F;
+    const Crop crop{{10, 30}, {20, 40}, {200, 100}};
+    const glm::dmat3 whole = matrixOf(Json::parse(describeFilmCamera(camera, crop.whole, {}, {}))->at("K"), 3);
+    camera.projection.crop = crop;
+    const Json json = *Json::parse(describeFilmCamera(camera, crop.size, {}, {}));
+    EXPECT_EQ(matrixOf(json.at("K"), 3), whole - glm::dmat3({0, 0, 0}, {0, 0, 0}, {10, 30, 0}));
+    EXPECT_EQ(json.at("crop").dump(), "[10,30,20,40]");
+    EXPECT_EQ(json.at("whole").dump(), "[200,100]");
+}
+
+TEST(FilmCameraTest, ACropIsWithinThePicture)
+{
+    Projection projection;
+    projection.crop = Crop{{10, 30}, {20, 40}};
+    EXPECT_EQ(applyProjection({}, projection, {30, 70}).projection.crop->whole, glm::uvec2(30, 70));
+    for (const glm::uvec2 size : {glm::uvec2(29, 70), glm::uvec2(30, 69)}) {
+        test::expectRefusal<InputError>([&] { applyProjection({}, projection, size); }, MessageId::OutOfRange, {.place = "--crop"});
+    }
+}
+
 TEST(FilmCameraTest, OpenExrsMatrixIsForRowVectors)
 {
     Camera camera;
@@ -91,11 +114,11 @@ TEST(FilmCameraTest, OrthographicCamerasHaveNoLens)
     lens.model = Projection::Model::RadialTangential;
     fisheye.model = Projection::Model::Fisheye;
     around.model = Projection::Model::Equirectangular;
-    EXPECT_EQ(applyProjection(camera, fisheye, std::nullopt).projection, fisheye);
+    EXPECT_EQ(applyProjection(camera, fisheye, {4, 4}).projection, fisheye);
     camera.kind = Camera::Kind::Orthographic;
-    test::expectRefusal<InputError>([&] { applyProjection(camera, lens, std::nullopt); }, MessageId::Conflict, {.place = "--distortion"});
-    test::expectRefusal<InputError>([&] { applyProjection(camera, fisheye, std::nullopt); }, MessageId::Conflict, {.place = "--fisheye"});
-    EXPECT_EQ(flattenCamera(applyProjection(camera, around, std::nullopt), 2.0F).kind, kPerspective);
+    test::expectRefusal<InputError>([&] { applyProjection(camera, lens, {4, 4}); }, MessageId::Conflict, {.place = "--distortion"});
+    test::expectRefusal<InputError>([&] { applyProjection(camera, fisheye, {4, 4}); }, MessageId::Conflict, {.place = "--fisheye"});
+    EXPECT_EQ(flattenCamera(applyProjection(camera, around, {4, 4}), 2.0F).kind, kPerspective);
 }
 
 }  // namespace

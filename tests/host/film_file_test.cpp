@@ -207,6 +207,29 @@ TEST(FilmFile, EveryRowHasItsOwnVariance)
     EXPECT_EQ(computeDigest(readFilm(folder / "a.exr")), computeDigest(film));
 }
 
+// Rows of a crop: the data window is where they are in the picture.
+TEST(FilmFile, ACropIsPartOfThePicture)
+{
+    const ScratchFolder folder;
+    Film film = simulateFilm(0, 64);
+    film.rowsAbove = 2;
+    film.rowsBelow = 3;
+    film.crop = Crop{{11, 20}, {film.width, film.height + 5}, {40, 60}};
+    writeFilm(folder / "a.exr", film);
+    const Image image = readExr(folder / "a.exr");
+    EXPECT_EQ(image.columnsLeft, 11U);
+    EXPECT_EQ(image.columnsLeft + image.width + image.columnsRight, 40U);
+    EXPECT_EQ(image.rowsAbove, 22U);
+    EXPECT_EQ(image.rowsAbove + image.height + image.rowsBelow, 60U);
+    const Film back = readFilm(folder / "a.exr");
+    EXPECT_EQ(back.crop, film.crop);
+    EXPECT_EQ(back.rowsAbove, 2U);
+    EXPECT_EQ(back.rowsBelow, 3U);
+    EXPECT_TRUE(sameBits(back.pixels, film.pixels));
+    const Picture picture = makePicture(back);
+    EXPECT_EQ(glm::uvec2(picture.columnsLeft, picture.rowsAbove), glm::uvec2(11, 22));
+}
+
 TEST(FilmFile, UnknownVarianceIsLeftOutOrInfinite)
 {
     const ScratchFolder folder;
@@ -285,6 +308,16 @@ TEST_F(FilmFileRefusal, OfImpossibleSampleRanges)
         image.attributes["glim:samples"] = std::string(ranges);
         expectRefused(MessageId::Malformed, {.place = "sample ranges", .value = ranges});
     }
+}
+
+TEST_F(FilmFileRefusal, OfACropThatIsNotTheDataWindow)
+{
+    for (const char* crop : {"", "0,0,7", "1,0,7,5", "0,0,6,5", "0,0,7,4", "0,0,7,9", "0,1,7,4", "0,0,7,5x", "0, 0,7,5", "-1,0,7,5"}) {
+        image.attributes["glim:crop"] = std::string(crop);
+        expectRefused(MessageId::Malformed, {.place = "crop", .value = crop});
+    }
+    image.attributes["glim:crop"] = 4.0;
+    expectRefused(MessageId::Malformed, {.place = "crop"});
 }
 
 TEST_F(FilmFileRefusal, OfACameraWithoutAPose)

@@ -302,6 +302,10 @@ const NamedVariant kVariants[] = {
      [] {
          return projected({Projection::Model::Equirectangular, std::nullopt, {}, {}});
      }},
+    {"cropped",
+     [] {
+         return projected({Projection::Model::RadialTangential, std::nullopt, {}, {-0.1}, Crop{{9, 12}, {32, 32}, {64, 48}}});
+     }},
     {"threeBounces",
      [] {
          Variant v = balls();

@@ -1,9 +1,8 @@
 // Layers of ids, against areas known on paper and against what the film itself has seen.
 #include "host/render/identify.hpp"
-#include "host/flatten/build_scene_bvh.hpp"
-#include "host/flatten/flatten_scene.hpp"
 #include "host/image/cryptomatte.hpp"
 #include "tests/support/build_scene.hpp"
+#include "tests/support/prepare_in_memory.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/statistics.hpp"
 #include "tests/support/test_device.hpp"
@@ -16,29 +15,6 @@
 
 namespace glim {
 namespace {
-
-// Nodes are the instances and then the spheres, meshes and materials those of the scene.
-PreparedScene prepare(Scene scene, std::uint64_t maxFlatTriangles = kMaxFlatTriangles)
-{
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        scene.meshes.change()[i].fileMesh = static_cast<std::uint32_t>(i);
-        scene.meshNames.push_back(scene.meshes[i].name);
-    }
-    for (MeshInstance& instance : scene.instances) {
-        instance.node = static_cast<std::uint32_t>(scene.nodeNames.size());
-        scene.nodeNames.push_back(instance.name);
-    }
-    for (Sphere& sphere : scene.spheres) {
-        sphere.node = static_cast<std::uint32_t>(scene.nodeNames.size());
-        scene.nodeNames.push_back(sphere.name);
-    }
-    PreparedScene prepared;
-    prepared.scene = std::move(scene);
-    prepared.primitives = makePrimitives(prepared.scene, maxFlatTriangles);
-    prepared.bvh = buildSceneBvh(prepared.primitives);
-    prepared.flat = flattenScene(prepared.scene, prepared.primitives, prepared.bvh);
-    return prepared;
-}
 
 struct Identified {
     Film film;
@@ -104,7 +80,7 @@ TEST(IdentifyTest, SharesOfAPixelAreExactAndRanked)
     scene.instances[7].name = scene.instances[8].name = "pair";
     scene.materials[red].name = "red";
     scene.meshes.change()[6].name = "six";
-    const auto [film, ids] = identify(prepare(scene), squareSettings(1, 64));
+    const auto [film, ids] = identify(prepare(nameParts(scene)), squareSettings(1, 64));
 
     EXPECT_EQ(ids.counts.at("node.X")[0], 6U) << "the smaller index of two that cover 3/16";
     EXPECT_EQ(ids.counts.at("mesh.X")[0], 6U);
@@ -134,7 +110,7 @@ TEST(IdentifyTest, NothingAndWhatTheFileDoesNotHaveHaveNoIndex)
     builder.sphere({0.75F, 0.0F, -2.0F}, 0.57F, white);
     Scene scene = builder.scene();
     scene.defaultMaterial = white;
-    const auto [film, ids] = identify(prepare(scene), squareSettings(4, 64));
+    const auto [film, ids] = identify(prepare(nameParts(scene)), squareSettings(4, 64));
     EXPECT_EQ(ids.counts.at("node.X")[0], 0U);
     EXPECT_EQ(ids.counts.at("node.X")[1], 0U) << "half of a pixel counts before nothing";
     EXPECT_EQ(ids.counts.at("node.X")[2], kNoIndex);
@@ -161,7 +137,7 @@ TEST(IdentifyTest, AreasAreThoseOfTheScene)
     scene.materials[veil].alpha = 0.25F;
     RenderSettings settings = squareSettings(32, samplesFor(64));
     settings.sampler = Sampler::Independent;
-    const auto [film, ids] = identify(prepare(scene), settings);
+    const auto [film, ids] = identify(prepare(nameParts(scene)), settings);
 
     // Of the square of area 4. The part of the disk that lies beyond x = .3 is a segment whose chord is .2 from the centre.
     const double r = 0.5, disk = M_PI * r * r, d = 0.2;
@@ -206,7 +182,7 @@ TEST(IdentifyTest, HolesOfMasksShowWhatIsBehind)
     halves.rgba8 = {255, 255, 255, 0, 255, 255, 255, 255};
     scene.images.push_back({"halves", halves});
     scene.meshes.change()[0].uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
-    const auto [film, ids] = identify(prepare(scene), squareSettings(8, 16));
+    const auto [film, ids] = identify(prepare(nameParts(scene)), squareSettings(8, 16));
     for (std::size_t pixel = 0; pixel < 64; ++pixel) {
         const std::uint32_t node = pixel % 8 < 4 ? 1 : 0;
         EXPECT_EQ(ids.counts.at("node.X")[pixel], node) << pixel;
@@ -274,7 +250,7 @@ TEST(IdentifyTest, SamplesAreThoseOfThePicture)
     lens.radius = 0.05F;
     lens.focalDistance = 6.0F;
     for (const std::uint64_t maxFlatTriangles : {std::uint64_t{kMaxFlatTriangles}, std::uint64_t{0}}) {
-        const PreparedScene prepared = prepare(scene, maxFlatTriangles);
+        const PreparedScene prepared = prepare(nameParts(scene), maxFlatTriangles);
         EXPECT_EQ(prepared.primitives.placements.empty(), maxFlatTriangles > 0);
         RenderSettings settings = squareSettings(24, 40);
         settings.seed = 3;
@@ -299,7 +275,7 @@ TEST(IdentifyTest, SamplesOfPixelsThatStopAreThoseOfThePicture)
     settings.course.tolerance = 0.1F;
     settings.bounces = 1;
     scene.spheres.erase(scene.spheres.begin() + 1);  // around the camera
-    const Identified identified = identify(prepare(scene), settings);
+    const Identified identified = identify(prepare(nameParts(scene)), settings);
     const auto [least, most] = std::ranges::minmax(identified.film.pixels, {}, &PixelMoments::count);
     EXPECT_LT(least.count, most.count);
     expectSameSamples(identified, scene);
@@ -310,7 +286,7 @@ TEST(IdentifyTest, AdaptivePixelsHaveSharesOfTheirCounts)
 {
     RenderSettings settings = squareSettings(24, 256);
     settings.adaptive = Adaptive::Neighbours;
-    const auto [film, ids] = identify(prepare(yardOfAlbedos()), settings);
+    const auto [film, ids] = identify(prepare(nameParts(yardOfAlbedos)()), settings);
     bool uneven = false;
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         uneven = uneven || film.pixels[i].count != film.pixels[0].count;
@@ -324,7 +300,7 @@ TEST(IdentifyTest, AdaptivePixelsHaveSharesOfTheirCounts)
 
 TEST(IdentifyTest, PixelsWithoutSamplesShowNothing)
 {
-    const PreparedScene prepared = prepare(yardOfAlbedos());
+    const PreparedScene prepared = prepare(nameParts(yardOfAlbedos)());
     const FlatCamera camera = flattenCamera(prepared.scene.cameras.front(), 1.0F);
     const RenderSettings settings = squareSettings(16, 8);
     Renderer renderer(testDevice(), prepared.flat, camera, settings);
@@ -355,7 +331,7 @@ TEST(IdentifyTest, SharedMeshesAreIdentifiedAsFlattenedOnes)
     }
     scene.spheres.erase(scene.spheres.begin() + 1);
     const RenderSettings settings = squareSettings(64, 16);
-    const Image flat = identify(prepare(scene), settings).ids, shared = identify(prepare(scene, 0), settings).ids;
+    const Image flat = identify(prepare(nameParts(scene)), settings).ids, shared = identify(prepare(nameParts(scene), 0), settings).ids;
     std::size_t different = 0;
     std::set<std::uint32_t> nodes;
     for (std::size_t i = 0; i < 64 * 64; ++i) {
@@ -385,7 +361,7 @@ TEST(IdentifyTest, PointsAreTheNodeOfTheirCloud)
     scene.meshes.change().push_back(cloud);
     scene.instances.push_back({"cloud", 0});
     scene.spheres[0].name = "ball";
-    const auto [film, ids] = identify(prepare(scene), squareSettings(4, 16));
+    const auto [film, ids] = identify(prepare(nameParts(scene)), squareSettings(4, 16));
     const auto nodesAt = [&ids = ids](std::size_t x, std::size_t y) { return mattesOf(ids, "CryptoObject", 4 * y + x); };
     EXPECT_EQ(ids.counts.at("node.X"),
               (std::vector<std::uint32_t>{1, 1, 0, 0, 1, 1, 0, 0, kNoIndex, kNoIndex, 0, 0, kNoIndex, kNoIndex, 0, 0}));

@@ -8,6 +8,7 @@
 
 import contextlib
 import io
+import json
 import logging
 import math
 import os
@@ -179,6 +180,38 @@ class Film:
         return self._native.ids
 
     @property
+    def surfaces(self) -> Optional[Dict[str, Any]]:
+        """Of a film rendered with surfaces=True, else None: what the ray through the centre of each pixel meets first. float32 arrays
+        (height, width, ...): "position" (3: world, metres), "uv" (2), "distance" (metres along the ray); with flow=SECONDS
+        "forward_flow" and "backward_flow" (2: pixels, right and down, to that much later and earlier). NaN where there is none, infinite
+        distances where nothing is met. "instance": uint32, the place in `names`; 4294967295 of nothing."""
+        return self._native.surfaces
+
+    @property
+    def objects(self) -> Optional[Dict[str, Any]]:
+        """Of a film rendered with objects=True, else None: instances with boxes, pixels and visible shares, and COCO's images, categories
+        and annotations with masks. host/render/seen_instances.hpp says what each member is."""
+        return json.loads(self._native.objects) if self._native.objects else None
+
+    @property
+    def names(self) -> Optional[List[str]]:
+        """Of a film rendered with objects=True: the names of the instances, by surfaces["instance"]."""
+        return [instance["name"] for instance in self.objects["instances"]] if self._native.objects else None
+
+    @property
+    def boxes(self) -> Optional[Dict[str, Tuple[int, int, int, int]]]:
+        """Of a film rendered with objects=True: column, row, width and height of each instance that is seen, by its name."""
+        if not self._native.objects:
+            return None
+        return {instance["name"]: tuple(instance["bbox"]) for instance in self.objects["instances"] if instance["bbox"]}
+
+    @property
+    def crop(self) -> Optional[Tuple[int, int, int, int]]:
+        """Column, row, width and height in the whole picture, if it was rendered with crop=..."""
+        known = json.loads(self._native.camera) if self._native.camera else {}
+        return tuple(known["crop"]) if "crop" in known else None
+
+    @property
     def error(self) -> Optional[Error]:
         """The estimated error, or None if no pixel has two blocks of samples (65 samples or more)."""
         estimate = self._native.estimate
@@ -274,9 +307,10 @@ class Film:
 
     def arrays(self) -> Dict[str, Any]:
         """Dense copies of all layers, by name: rgb, alpha, albedo, normal, depth, count and variance, as the properties describe them;
-        denoised, ids.node, ids.mesh and ids.material if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
+        denoised, ids.node, ids.mesh and ids.material, and those of `surfaces`, if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
         (4x4, camera to world, glTF's axes)."""
         layers = {name: getattr(self, name) for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance", "denoised")}
+        layers.update(self.surfaces or {})
         layers.update({"ids." + name: values for name, values in (self.ids or {}).items()})
         camera = self.camera
         if camera is not None:
@@ -284,7 +318,7 @@ class Film:
         return {name: numpy.array(values) for name, values in layers.items() if values is not None}
 
     def __reduce__(self):
-        """Pickled as its EXR: a copy has all but ids and denoised, and is resumed by Scene.render(resume=film)."""
+        """Pickled as its EXR: a copy has all but ids, surfaces, objects and denoised, and is resumed by Scene.render(resume=film)."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "film.exr")
             self._native.save(path)
@@ -330,11 +364,13 @@ class Scene:
         """The film of the last render, also if Ctrl-C or `progress` has stopped it. None if there is none."""
         return self._film(*self._last) if self._last else None
 
-    def render(self, *, resume: Optional[Film] = None, ids: bool = False, progress: Optional[Progress] = None, **options) -> Film:
+    def render(self, *, resume: Optional[Film] = None, ids: bool = False, surfaces: bool = False, flow: Optional[float] = None,
+               objects: bool = False, progress: Optional[Progress] = None, **options) -> Film:
         """Renders a picture.
 
         resume: a film of the same picture with fewer samples, to go on from.
-        ids: whether film.ids is to be known, which traces camera rays again.
+        ids, surfaces, objects: whether these of the film are to be known, which traces camera rays again.
+        flow: seconds between the pictures of film.surfaces' flow; needs at=, the time of the animation.
         progress: called several times a second with samples so far and in all, over all pixels, and seconds. What it raises ends the
             render, as Ctrl-C does: the film so far is last_film, and the exception's `film`.
         options: those of `glim render --help-all`, with underscores: spp=256, size=(640, 480), camera="top", **look_at(...), seed=1,
@@ -344,6 +380,7 @@ class Scene:
         asked = {**self._options, **options}
         values = {"file": os.fsencode(path_of(self.path, "scene")), **values_of(asked)}
         before = None if resume is None else _native_film(resume, "resume")
+        wanted = self._wanted(asked, bool(ids), bool(surfaces), bool(objects), flow)
         if progress is not None and not callable(progress):
             raise unusable("progress", progress, "a function")
         if getattr(_heard, "messages", None) is not None:
@@ -351,13 +388,24 @@ class Scene:
         with self._lock, _call() as native:
             self._native = self._native or native.Scene()
             try:
-                rendered = self._native.render(values, before, bool(ids), progress)
+                rendered = self._native.render(values, before, native.Wanted(*wanted), progress)
             except (InputError, DeviceError):
                 raise
             except BaseException as stop:
                 stop.film = self._keep(asked, self._native.last_film)
                 raise
             return self._keep(asked, rendered)
+
+    @staticmethod
+    def _wanted(asked, ids, surfaces, objects, flow):
+        if flow is None:
+            return ids, surfaces, objects, None
+        if isinstance(flow, bool) or not isinstance(flow, (int, float)) or not 1e-9 <= flow <= 1e6:
+            raise unusable("flow", flow, "seconds, 1e-9 to 1e6", "out-of-range")
+        if not surfaces or asked.get("at") is None:
+            raise InputError("flow: needs surfaces=True and at=SECONDS", "requires", place="flow", value=repr(flow),
+                             expected="surfaces=True and at=SECONDS")
+        return ids, surfaces, objects, float(flow)
 
     def set(self, pointer: str, value) -> None:
         """Sets a value of the scene for the renders that follow; the file stays as it is.

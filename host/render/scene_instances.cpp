@@ -1,0 +1,46 @@
+#include "host/render/scene_instances.hpp"
+
+#include <map>
+#include <tuple>
+
+namespace glim {
+namespace {
+
+std::string nameOf(const std::vector<std::string>& names, std::uint32_t index, const char* kind)
+{
+    return index < names.size() && !names[index].empty() ? names[index] : kind + ("." + std::to_string(index));
+}
+
+}  // namespace
+
+SceneInstances::SceneInstances(const Scene& scene)
+{
+    // The first placing of a node has its first of each mesh, the second one its second, and so on.
+    std::map<std::tuple<std::uint32_t, std::uint32_t>, std::uint32_t> uses;                        // of a mesh by a node
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> instanceOf;  // node, file's mesh, number
+    std::map<std::uint32_t, std::uint32_t> placings;                                              // of a node
+    std::vector<std::uint32_t> numbers;
+    const auto add = [&](std::uint32_t node, std::uint32_t mesh, std::uint32_t number) {
+        const auto [found, isNew] = instanceOf.try_emplace({node, mesh, number}, static_cast<std::uint32_t>(instances_.size()));
+        if (isNew) {
+            instances_.push_back({nameOf(scene.nodeNames, node, "node"), node, mesh,
+                                  mesh == kNoIndex ? "sphere" : nameOf(scene.meshNames, mesh, "mesh")});
+            numbers.push_back(number);
+            ++placings[node];
+        }
+        ofObject_.push_back(found->second);
+    };
+    for (const MeshInstance& instance : scene.instances) {
+        add(instance.node, scene.meshes[instance.mesh].fileMesh, uses[{instance.node, instance.mesh}]++);
+    }
+    for (const Sphere& sphere : scene.spheres) {
+        add(sphere.node, kNoIndex, 0);
+    }
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        if (placings[instances_[i].node] > 1) {
+            instances_[i].name += "[" + std::to_string(numbers[i]) + "]";
+        }
+    }
+}
+
+}  // namespace glim
