@@ -19,12 +19,15 @@ SceneInstances::SceneInstances(const Scene& scene)
     std::map<std::tuple<std::uint32_t, std::uint32_t>, std::uint32_t> uses;                        // of a mesh by a node
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> instanceOf;  // node, file's mesh, number
     std::map<std::uint32_t, std::uint32_t> placings;                                              // of a node
+    std::map<std::uint32_t, std::string> kinds;                                                    // of a mesh
     std::vector<std::uint32_t> numbers;
     const auto add = [&](std::uint32_t node, std::uint32_t mesh, std::uint32_t number) {
         const auto [found, isNew] = instanceOf.try_emplace({node, mesh, number}, static_cast<std::uint32_t>(instances_.size()));
         if (isNew) {
-            instances_.push_back({nameOf(scene.nodeNames, node, "node"), node, mesh,
-                                  mesh == kNoIndex ? "sphere" : nameOf(scene.meshNames, mesh, "mesh")});
+            const std::string name = nameOf(scene.nodeNames, node, "node");
+            const bool isNamed = mesh < scene.meshNames.size() && !scene.meshNames[mesh].empty();
+            const std::string kind = mesh == kNoIndex ? "sphere" : isNamed ? scene.meshNames[mesh] : name;
+            instances_.push_back({name, node, mesh, kinds.try_emplace(mesh, kind).first->second});
             numbers.push_back(number);
             ++placings[node];
         }

@@ -11,7 +11,7 @@ namespace glim {
 struct SceneInstance {
     std::string name;          // the node's, or node.N by its index; with [K] where the node is placed several times
     std::uint32_t node, mesh;  // of the file; kNoIndex where it has none
-    std::string meshName;      // or mesh.N, or sphere
+    std::string kind;          // the mesh's name; that of its first node where it has none, or sphere
 
     bool operator==(const SceneInstance&) const = default;
 };

@@ -45,12 +45,14 @@ Json runLengths(const std::vector<std::uint32_t>& ids, const glm::uvec2& size, s
     return Json{{"size", Json::array({size.y, size.x})}, {"counts", counts}};
 }
 
+using Categories = std::map<std::pair<std::uint32_t, std::string>, std::uint32_t>;
+
 // The number of each mesh's category, from 1 on; spheres share one.
-std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> numberCategories(const SceneInstances& instances)
+Categories numberCategories(const SceneInstances& instances)
 {
-    std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> numbers;
+    Categories numbers;
     for (const SceneInstance& instance : instances.all()) {
-        numbers.try_emplace({instance.mesh, instance.meshName});
+        numbers.try_emplace({instance.mesh, instance.kind});
     }
     std::uint32_t number = 0;
     for (auto& [mesh, its] : numbers) {
@@ -83,12 +85,12 @@ Json describeSeenInstances(SurfaceTracer& tracer, const SceneInstances& instance
             }
         }
     }
-    const auto categories = numberCategories(instances);
+    const Categories categories = numberCategories(instances);
     Json all = Json::array(), annotations = Json::array(), kinds = Json::array();
     for (std::uint32_t id = 0; id < seen.size(); ++id) {
         const SceneInstance& instance = instances.all()[id];
         const auto& [visible, full] = seen[id];
-        const std::uint32_t category = categories.at({instance.mesh, instance.meshName});
+        const std::uint32_t category = categories.at({instance.mesh, instance.kind});
         const Json share = full.pixels == 0 ? Json() : Json(static_cast<double>(visible.pixels) / full.pixels);
         all.append(Json{{"id", id},
                         {"name", instance.name},

@@ -55,7 +55,7 @@ TEST_P(CropTest, ShowsThatPartOfThePicture)
     camera.halfWidth = 3.0F;
     camera.halfHeight = 2.0F;
     camera.projection = projection;
-    RenderSettings settings = squareSettings(kCrop.whole.y, samplesFor(512, 4));
+    RenderSettings settings = squareSettings(kCrop.whole.y, samplesFor(128));
     settings.width = kCrop.whole.x;
     settings.schedule = Schedule::Persistent;
     settings.caustics = false;
