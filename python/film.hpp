@@ -1,9 +1,9 @@
 // Films as Python sees them.
 #pragma once
 
+#include "host/image/image.hpp"
 #include "host/job/denoising.hpp"
 #include "host/render/film_file.hpp"
-#include "host/image/image.hpp"
 #include "host/render/identify.hpp"
 
 #include <nanobind/nanobind.h>

@@ -17,6 +17,10 @@ set(onlyInCi
     LightSamplesTest.DivideTheVariance
     Albedos/FurnaceTest.*
     Scenes/GoldenTest.*
+    Cameras/CropTest.*/shifted
+    Cameras/CropTest.*/intrinsics
+    Cameras/CropTest.*/distorted
+    Cameras/CropTest.*/equirectangular
     Scenes/ArenaTest.*
     Scenes/ArithmeticTest.*
     IntersectorTest.*

@@ -23,8 +23,7 @@ glm::dvec2 distortRadially(const Coefficients& p, const glm::dvec2& x)
     const double below = 1.0 + r2 * (p.radial.w + r2 * (p.radial2.x + r2 * p.radial2.y));
     const glm::dvec2 t = p.tangential;
     const double cross2 = 2.0 * x.x * x.y;
-    return x * (above / below) +
-           glm::dvec2(t.x * cross2 + t.y * (r2 + 2.0 * x.x * x.x), t.x * (r2 + 2.0 * x.y * x.y) + t.y * cross2);
+    return x * (above / below) + glm::dvec2(t.x * cross2 + t.y * (r2 + 2.0 * x.x * x.x), t.x * (r2 + 2.0 * x.y * x.y) + t.y * cross2);
 }
 
 double distortAngle(const Coefficients& p, double angle)

@@ -61,7 +61,8 @@ void addOutput(OptionTable& table, RenderJob& options)
     addNumber<double>(table, {"--flow", "SECONDS", "With --surfaces: optical flow to that much later and earlier", 1e-9, 1e6, "off"},
                       [&options](double seconds) { options.flow = seconds; })
         .needs(surfaces);
-    table.addPath("--objects", "O.json", "Also write names, boxes, masks and visible shares of instances, with COCO's keys", options.objects);
+    table.addPath("--objects", "O.json", "Also write names, boxes, masks and visible shares of instances, with COCO's keys",
+                  options.objects);
     table.addPath("--stats", "S.json", "Also write times, counts and estimated errors, or the path of --replay", options.stats);
     addCheckpoint(table, options.checkpoint);
     addProgress(table, options.progress);

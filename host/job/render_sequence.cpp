@@ -199,7 +199,8 @@ RenderJob SequenceRenderer::makeOptions(const Shot& shot) const
         for (std::filesystem::path& file : options.pictures) {
             file = numberedPath(file, shot.number);
         }
-        for (std::optional<std::filesystem::path>* file : {&options.output, &options.rates, &options.ids, &options.surfaces, &options.objects, &options.stats}) {
+        for (std::optional<std::filesystem::path>* file :
+             {&options.output, &options.rates, &options.ids, &options.surfaces, &options.objects, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }
@@ -398,7 +399,7 @@ ExitCode RenderSession::render(const RenderJob& options)
     }
     std::unique_ptr<SequenceRenderer> renderer = std::move(renderer_);  // none stays if anything is thrown
     if (!renderer || !renderer->serves(options)) {
-        renderer.reset();                                                                  // so that no two scenes are on the device
+        renderer.reset();                                                               // so that no two scenes are on the device
         const bool needsSurfaces = options.ids || options.surfaces || options.objects;  // afterwards
         const bool isOnePicture = !isSequence(options.sequence, options) && !needsSurfaces;
         renderer = std::make_unique<SequenceRenderer>(options, reports_, isOnePicture ? use_ : SceneUse::Again);

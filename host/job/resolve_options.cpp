@@ -79,7 +79,11 @@ const Rule<PictureOptions> kPictureRules[] = {
      "--adaptive course has a rule of its own; expected ",
      "--adaptive neighbours or off"},
     {{"--adaptive", "--target-rmse", "--target-relmse"}, isOfRows, MessageId::Conflict, "needs the whole picture; expected ", "no --rows"},
-    {{"--ids", "--surfaces", "--objects", "--suspects", "--replay"}, isOfRows, MessageId::Conflict, "is of the whole picture; expected ", "no --rows"},
+    {{"--ids", "--surfaces", "--objects", "--suspects", "--replay"},
+     isOfRows,
+     MessageId::Conflict,
+     "is of the whole picture; expected ",
+     "no --rows"},
 };
 
 bool isReplay(const RenderJob& job) { return job.replay.has_value(); }
@@ -93,8 +97,8 @@ bool isAtRest(const RenderJob& job) { return !firstTime(job.sequence, job); }
 bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
 
 const Rule<RenderJob> kRenderRules[] = {
-    {{"--output", "--image", "--rates", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects", "--target-rmse", "--target-relmse", "--checkpoint",
-      "--resume"},
+    {{"--output", "--image", "--rates", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects", "--target-rmse",
+      "--target-relmse", "--checkpoint", "--resume"},
      isReplay,
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
@@ -340,8 +344,11 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
                               std::to_string(longest), " pixels a side; expected ", part::expected("a smaller --size")});
         }
     }
-    const std::pair<const char*, const std::optional<std::filesystem::path>*> others[] = {
-        {"--output", &job.output}, {"--ids", &job.ids}, {"--surfaces", &job.surfaces}, {"--objects", &job.objects}, {"--stats", &job.stats}};
+    const std::pair<const char*, const std::optional<std::filesystem::path>*> others[] = {{"--output", &job.output},
+                                                                                          {"--ids", &job.ids},
+                                                                                          {"--surfaces", &job.surfaces},
+                                                                                          {"--objects", &job.objects},
+                                                                                          {"--stats", &job.stats}};
     for (const auto& [name, file] : others) {
         for (const auto& [other, before] : others) {
             if (file == before) {

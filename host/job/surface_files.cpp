@@ -1,6 +1,7 @@
 #include "host/job/surface_files.hpp"
 
 #include "host/clock.hpp"
+#include "host/job/output_file.hpp"
 #include "host/render/identify.hpp"
 #include "host/render/seen_instances.hpp"
 

@@ -65,9 +65,9 @@ void takeWindows(const std::filesystem::path& path, const Image& image, Film& fi
     const std::string* text = std::get_if<std::string>(&found->second);
     film.crop = text != nullptr ? parseCrop(*text) : std::nullopt;
     if (!film.crop || !agree(*film.crop, image)) {
-        throw InputError(MessageId::Malformed, {part::file(path), ": its ", part::place("crop"), " is ",
-                                                part::quoted(text != nullptr ? *text : "a number"), ", expected ",
-                                                part::expected("X,Y,W,H with all columns of its data window"), "."});
+        throw InputError(MessageId::Malformed,
+                         {part::file(path), ": its ", part::place("crop"), " is ", part::quoted(text != nullptr ? *text : "a number"),
+                          ", expected ", part::expected("X,Y,W,H with all columns of its data window"), "."});
     }
     auto& [corner, size, whole] = *film.crop;
     whole = {image.columnsLeft + image.width + image.columnsRight, image.rowsAbove + image.height + image.rowsBelow};

@@ -16,10 +16,10 @@ std::string nameOf(const std::vector<std::string>& names, std::uint32_t index, c
 SceneInstances::SceneInstances(const Scene& scene)
 {
     // The first placing of a node has its first of each mesh, the second one its second, and so on.
-    std::map<std::tuple<std::uint32_t, std::uint32_t>, std::uint32_t> uses;                        // of a mesh by a node
+    std::map<std::tuple<std::uint32_t, std::uint32_t>, std::uint32_t> uses;                       // of a mesh by a node
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> instanceOf;  // node, file's mesh, number
     std::map<std::uint32_t, std::uint32_t> placings;                                              // of a node
-    std::map<std::uint32_t, std::string> kinds;                                                    // of a mesh
+    std::map<std::uint32_t, std::string> kinds;                                                   // of a mesh
     std::vector<std::uint32_t> numbers;
     const auto add = [&](std::uint32_t node, std::uint32_t mesh, std::uint32_t number) {
         const auto [found, isNew] = instanceOf.try_emplace({node, mesh, number}, static_cast<std::uint32_t>(instances_.size()));

@@ -18,10 +18,7 @@ struct Region {
         low = glm::min(low, pixel);
         end = glm::max(end, pixel + 1U);
     }
-    Json box() const
-    {
-        return pixels == 0 ? Json() : Json::array({low.x, low.y, end.x - low.x, end.y - low.y});
-    }
+    Json box() const { return pixels == 0 ? Json() : Json::array({low.x, low.y, end.x - low.x, end.y - low.y}); }
 };
 
 struct Seen {

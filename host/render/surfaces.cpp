@@ -109,11 +109,11 @@ const std::vector<std::uint32_t>& SurfaceTracer::trianglesOf(std::uint32_t objec
         const MeshInstance& instance = prepared_.scene.instances[object];
         const auto shared = std::ranges::find(primitives.sharedMeshes, instance.mesh, &SharedMesh::mesh);
         const std::uint32_t first = primitives.firstTriangles[object], end = primitives.firstTriangles[object + 1];
-        found->second = shared != primitives.sharedMeshes.end()
-                            ? findTriangles(PlacedMesh(prepared_.scene.meshes[instance.mesh], Placing(glm::dmat3(1.0), -shared->center)),
-                                            shared->triangles)
-                            : findTriangles(PlacedMesh(prepared_.scene, instance),
-                                            std::span(primitives.triangles).subspan(first, end - first));
+        found->second =
+            shared != primitives.sharedMeshes.end()
+                ? findTriangles(PlacedMesh(prepared_.scene.meshes[instance.mesh], Placing(glm::dmat3(1.0), -shared->center)),
+                                shared->triangles)
+                : findTriangles(PlacedMesh(prepared_.scene, instance), std::span(primitives.triangles).subspan(first, end - first));
     }
     return found->second;
 }
@@ -189,10 +189,9 @@ glm::dvec2 SurfaceTracer::flowTo(const Moment& moment, const Meeting& meeting, c
             return std::nullopt;
         }
         const bool isFound = meeting.corners.x != kNoIndex;
-        const glm::dvec3 inMesh =
-            isFound ? blend(meshThen.positions, meeting.corners, meeting.weights)
-                    : transform(glm::inverse(before.worldFromMesh), meeting.world) - anchorOf(meshNow, meeting.part.point) +
-                          anchorOf(meshThen, meeting.part.point);
+        const glm::dvec3 inMesh = isFound ? blend(meshThen.positions, meeting.corners, meeting.weights)
+                                          : transform(glm::inverse(before.worldFromMesh), meeting.world) -
+                                                anchorOf(meshNow, meeting.part.point) + anchorOf(meshThen, meeting.part.point);
         return transform(after.worldFromMesh, inMesh) - originOf(then, camera);
     }();
     const std::optional<glm::dvec2> film = from ? projectToFilm(camera, *from) : std::nullopt;

@@ -57,10 +57,10 @@ TEST(FilmCameraTest, KOfACropCountsFromItsCorner)
     Camera camera;
     camera.yfov = 1.0F;
     const Crop crop{{10, 30}, {20, 40}, {200, 100}};
-    const glm::dmat3 whole = matrixOf(Json::parse(describeFilmCamera(camera, crop.whole, {}, {}))->at("K"), 3);
+    const glm::dmat3 whole(matrixOf(Json::parse(describeFilmCamera(camera, crop.whole, {}, {}))->at("K"), 3));
     camera.projection.crop = crop;
     const Json json = *Json::parse(describeFilmCamera(camera, crop.size, {}, {}));
-    EXPECT_EQ(matrixOf(json.at("K"), 3), whole - glm::dmat3({0, 0, 0}, {0, 0, 0}, {10, 30, 0}));
+    EXPECT_EQ(glm::dmat3(matrixOf(json.at("K"), 3)), whole - glm::dmat3({0, 0, 0}, {0, 0, 0}, {10, 30, 0}));
     EXPECT_EQ(json.at("crop").dump(), "[10,30,20,40]");
     EXPECT_EQ(json.at("whole").dump(), "[200,100]");
 }

@@ -25,8 +25,11 @@ TEST(SceneInstancesTest, EachPlacingOfANodeIsOne)
     }
     scene.spheres.push_back({"ball", {}, 1.0F, 0, 2});
     const SceneInstances instances(scene);
-    const std::vector<SceneInstance> expected{
-        {"tree[0]", 0, 0, "oak"}, {"node.1", 1, 1, "node.1"}, {"tree[1]", 0, 0, "oak"}, {"lone", 3, 0, "oak"}, {"ball", 2, kNoIndex, "sphere"}};
+    const std::vector<SceneInstance> expected{{"tree[0]", 0, 0, "oak"},
+                                              {"node.1", 1, 1, "node.1"},
+                                              {"tree[1]", 0, 0, "oak"},
+                                              {"lone", 3, 0, "oak"},
+                                              {"ball", 2, kNoIndex, "sphere"}};
     EXPECT_EQ(instances.all(), expected);
     const std::uint32_t ofObjects[] = {0, 0, 1, 2, 2, 3, 3, 4};
     for (std::uint32_t object = 0; object < std::size(ofObjects); ++object) {
