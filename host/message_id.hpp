@@ -104,6 +104,7 @@
     ID(ToneChosen)                                                        \
     ID(ExposureChosen)                                                    \
     ID(AlphaLost)                                                         \
+    ID(HalfOverflow)                                                      \
     ID(BegunAnew)                                                         \
     ID(Resumed)                                                           \
     ID(OtherRounding)                                                     \

@@ -243,7 +243,9 @@ Imf::Header headerOf(const Image& image)
     const int right = left + static_cast<int>(image.width) - 1, bottom = top + static_cast<int>(image.height) - 1;
     Imf::Header header({{0, 0}, {right + static_cast<int>(image.columnsRight), bottom + static_cast<int>(image.rowsBelow)}},
                        {{left, top}, {right, bottom}});
-    header.compression() = Imf::ZIP_COMPRESSION;
+    constexpr Imf::Compression kCompressions[] = {Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::RLE_COMPRESSION,
+                                                  Imf::NO_COMPRESSION};
+    header.compression() = kCompressions[static_cast<std::size_t>(image.compression)];
     header.zipCompressionLevel() = 2;                       // of a film, level 4 takes a fifth more time and 1 % less space
     Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec.709 with the white D65
     for (const auto& [name, value] : image.attributes) {
@@ -258,7 +260,7 @@ Imf::Header headerOf(const Image& image)
         }
     }
     for (const auto& [name, plane] : image.channels) {
-        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        header.channels().insert(name, Imf::Channel(image.halves.contains(name) ? Imf::HALF : Imf::FLOAT));
     }
     for (const auto& [name, plane] : image.counts) {
         header.channels().insert(name, Imf::Channel(Imf::UINT));
@@ -266,13 +268,26 @@ Imf::Header headerOf(const Image& image)
     return header;
 }
 
-// The slices of `rows`, whose first pixel is at `corner` of the display window.
-Imf::FrameBuffer frameOf(const Image& rows, const Imath::V2i& corner)
+using Halves = std::map<std::string, std::vector<Imath::half>>;
+
+Halves roundToHalves(const Image& rows, const std::set<std::string>& names)
+{
+    Halves halves;
+    for (const std::string& name : names) {
+        const std::vector<float>& values = rows.channels.at(name);
+        halves[name].assign(values.begin(), values.end());
+    }
+    return halves;
+}
+
+// The slices of `rows`, whose first pixel is at `corner` of the display window; of channels in `halves` those there.
+Imf::FrameBuffer frameOf(const Image& rows, const Halves& halves, const Imath::V2i& corner)
 {
     const Imath::Box2i window(corner, corner + Imath::V2i(static_cast<int>(rows.width) - 1, static_cast<int>(rows.height) - 1));
     Imf::FrameBuffer frame;
     for (const auto& [name, plane] : rows.channels) {
-        frame.insert(name, sliceOf(Imf::FLOAT, plane, window));
+        const auto half = halves.find(name);
+        frame.insert(name, half == halves.end() ? sliceOf(Imf::FLOAT, plane, window) : sliceOf(Imf::HALF, half->second, window));
     }
     for (const auto& [name, plane] : rows.counts) {
         frame.insert(name, sliceOf(Imf::UINT, plane, window));
@@ -331,7 +346,8 @@ struct ExrWriter::Output {
         : path(target),
           atomic(target),
           stream(atomic, target.string()),
-          corner(static_cast<int>(picture.columnsLeft), static_cast<int>(picture.rowsAbove))
+          corner(static_cast<int>(picture.columnsLeft), static_cast<int>(picture.rowsAbove)),
+          halves(picture.halves)
     {
         guarded(path, MessageId::FileUnwritable, [&] { file.emplace(stream, headerOf(picture), useAllCores()); });
         std::istringstream header(stream.endHeader());
@@ -343,6 +359,7 @@ struct ExrWriter::Output {
     ExrStream stream;
     std::optional<Imf::OutputFile> file;
     Imath::V2i corner;  // of the next row
+    std::set<std::string> halves;
     std::optional<HeaderSeal> seal;
 };
 
@@ -355,7 +372,8 @@ ExrWriter::~ExrWriter() = default;
 void ExrWriter::write(const Image& rows)
 {
     guarded(output_->path, MessageId::FileUnwritable, [&] {
-        output_->file->setFrameBuffer(frameOf(rows, output_->corner));
+        const Halves halves = roundToHalves(rows, output_->halves);
+        output_->file->setFrameBuffer(frameOf(rows, halves, output_->corner));
         output_->file->writePixels(static_cast<int>(rows.height));
     });
     output_->corner.y += static_cast<int>(rows.height);

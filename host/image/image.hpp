@@ -5,11 +5,15 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace glim {
+
+// None of them loses anything.
+enum class ExrCompression { Zip, Zips, Piz, Rle, None };
 
 struct Image {
     std::uint32_t width = 0, height = 0;
@@ -18,6 +22,8 @@ struct Image {
     std::map<std::string, std::vector<float>> channels;                              // "R", "albedo.G" ...; row 0 at the top, left to right
     std::map<std::string, std::vector<std::uint32_t>> counts;                        // channels of integers, which float32 might round
     std::map<std::string, std::variant<double, std::string, glm::mat4>> attributes;  // matrices are written, but not read
+    std::set<std::string> halves;                                                    // channels that are written as 16-bit floats
+    ExrCompression compression = ExrCompression::Zip;                                // of a file that is written
 };
 
 }  // namespace glim

@@ -55,6 +55,11 @@ void addOutput(OptionTable& table, RenderJob& options)
         .needs(denoise);
     table.option("--denoised").needs(denoise);
     table.addPath("--rates", "R.png", "Also draw the samples per pixel, blue (fewest) to red (most)", options.rates);
+    const Option layers =
+        table.addPath("--layers", "L.exr", "Also write RGBA, albedo, normal and depth for compositing, as half floats", options.layers);
+    addEnum(table, "--compression", "C", "Of the layers, without loss: zip, zips, piz, rle or none [zip]",
+            {"zip", "zips", "piz", "rle", "none"}, options.compression)
+        .needs(layers);
     table.addPath("--ids", "I.exr", "Also write which nodes, meshes and materials each pixel shows, and Cryptomatte", options.ids);
     const Option surfaces =
         table.addPath("--surfaces", "S.exr", "Also write position, uv, distance and instance at each pixel's centre", options.surfaces);

@@ -13,8 +13,9 @@ namespace glim {
 struct RenderJob : PictureOptions {
     std::optional<std::filesystem::path> output;  // without one the film is not kept
     PictureFiles pictures;
-    std::optional<std::filesystem::path> rates, ids, surfaces, objects, stats;
-    std::optional<double> flow;  // seconds, of the surfaces
+    std::optional<std::filesystem::path> rates, layers, ids, surfaces, objects, stats;
+    ExrCompression compression = ExrCompression::Zip;  // of the layers
+    std::optional<double> flow;                        // seconds, of the surfaces
     SequenceOptions sequence;
     bool denoise = false, noDenoise = false;    // a picture of few samples that is written without its film is denoised unless noDenoise
     std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser

@@ -11,6 +11,7 @@
 #include "host/job/surface_files.hpp"
 #include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
+#include "host/render/layers_file.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void checkTargets(const RenderJob& options, const std::vector<std::filesystem::p
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
     }
-    for (const auto* file : {&options.ids, &options.surfaces}) {
+    for (const auto* file : {&options.layers, &options.ids, &options.surfaces}) {
         if (*file) {
             checkTarget(**file, ".exr", inputs);
         }
@@ -82,6 +83,9 @@ std::optional<Look> drawFilm(const RenderJob& options, const Film& film)
     }
     if (options.rates) {
         writeFilmPicture(*options.rates, film, Aov::SampleCount);
+    }
+    if (options.layers) {
+        writeLayers(*options.layers, film, options.compression);
     }
     return look;
 }
@@ -200,7 +204,7 @@ RenderJob SequenceRenderer::makeOptions(const Shot& shot) const
             file = numberedPath(file, shot.number);
         }
         for (std::optional<std::filesystem::path>* file :
-             {&options.output, &options.rates, &options.ids, &options.surfaces, &options.objects, &options.stats}) {
+             {&options.output, &options.rates, &options.layers, &options.ids, &options.surfaces, &options.objects, &options.stats}) {
             *file = *file ? std::optional(numberedPath(**file, shot.number)) : std::nullopt;
         }
     }

@@ -97,8 +97,8 @@ bool isAtRest(const RenderJob& job) { return !firstTime(job.sequence, job); }
 bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
 
 const Rule<RenderJob> kRenderRules[] = {
-    {{"--output", "--image", "--rates", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects", "--target-rmse",
-      "--target-relmse", "--checkpoint", "--resume"},
+    {{"--output", "--image", "--rates", "--layers", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects",
+      "--target-rmse", "--target-relmse", "--checkpoint", "--resume"},
      isReplay,
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
@@ -309,7 +309,7 @@ bool mayBeSame(const std::filesystem::path& a, const std::filesystem::path& b)
 }
 
 // The options that name the files of a picture.
-constexpr const char* kOutputs[] = {"--output", "--image", "--rates", "--ids", "--surfaces", "--objects", "--stats"};
+constexpr const char* kOutputs[] = {"--output", "--image", "--rates", "--layers", "--ids", "--surfaces", "--objects", "--stats"};
 
 void checkNames(const OptionTable& table, const RenderJob& job)
 {
@@ -344,11 +344,9 @@ void checkFiles(const OptionTable& table, const RenderJob& job)
                               std::to_string(longest), " pixels a side; expected ", part::expected("a smaller --size")});
         }
     }
-    const std::pair<const char*, const std::optional<std::filesystem::path>*> others[] = {{"--output", &job.output},
-                                                                                          {"--ids", &job.ids},
-                                                                                          {"--surfaces", &job.surfaces},
-                                                                                          {"--objects", &job.objects},
-                                                                                          {"--stats", &job.stats}};
+    const std::pair<const char*, const std::optional<std::filesystem::path>*> others[] = {
+        {"--output", &job.output},     {"--layers", &job.layers},   {"--ids", &job.ids},
+        {"--surfaces", &job.surfaces}, {"--objects", &job.objects}, {"--stats", &job.stats}};
     for (const auto& [name, file] : others) {
         for (const auto& [other, before] : others) {
             if (file == before) {

@@ -2,8 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
-#include "host/render/film_camera.hpp"
-#include "host/render/film_window.hpp"
+#include "host/render/film_place.hpp"
 #include "host/text.hpp"
 #include "version.h"
 
@@ -31,7 +30,7 @@ bool hasSplats(double format) { return format == kUnsealedWithSplats || format =
 
 constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenEXR, for as many cores
 
-constexpr const char *kBackground = "glim:background", *kCamera = "glim:camera";
+constexpr const char* kBackground = "glim:background";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 
 // Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
@@ -286,13 +285,7 @@ Image headerOf(const Film& film, const FilmDigests& digests)
     if (!film.showsBackground) {
         image.attributes[kBackground] = "off";
     }
-    if (!film.camera.empty()) {
-        image.attributes[kCamera] = film.camera;
-    }
-    if (const auto worldToCamera = worldToCameraOf(film.camera)) {
-        image.attributes["worldToCamera"] = *worldToCamera;
-    }
-    setWindows(image, film);
+    describePlace(image, film);
     return image;
 }
 
@@ -409,7 +402,7 @@ Film filmOfHeader(const fs::path& path, const Image& image)
                                                 ", expected ", part::expected("ascending disjoint ranges such as \"0:256 512:768\""), "."});
     }
     Film film;
-    takeWindows(path, image, film);
+    takePlace(path, image, film);
     film.sampleRanges = *ranges;
     film.identity.scene = attribute<std::string>(path, image, "glim:scene");
     film.identity.settings = attribute<std::string>(path, image, "glim:settings");
@@ -420,11 +413,6 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     film.sceneFile = attribute<std::string>(path, image, "glim:sceneFile");
     film.identity.kernels = textIfPresent(image, "glim:kernels");
     film.arithmetic = textIfPresent(image, "glim:arithmetic");
-    film.camera = textIfPresent(image, kCamera);
-    if (!film.camera.empty() && !worldToCameraOf(film.camera)) {
-        throw InputError(MessageId::Malformed, {part::file(path), ": its ", part::place("camera"), " is ", part::quoted(film.camera),
-                                                ", expected ", part::expected("JSON with a pose of four rows of four numbers"), "."});
-    }
     film.showsBackground = textIfPresent(image, kBackground) != "off";
     return film;
 }

@@ -3,7 +3,7 @@
 #include "host/image/cryptomatte.hpp"
 #include "host/image/exr.hpp"
 #include "host/render/describe_primitive.hpp"
-#include "host/render/film_window.hpp"
+#include "host/render/film_place.hpp"
 #include "version.h"
 
 #include <algorithm>
@@ -107,7 +107,7 @@ Image Identifier::frame(const Film& film) const
         addMatteAttributes(image, kMatteLayers[kind], manifests_[kind]);
     }
     const Planes channels(image);  // of no pixels yet
-    setWindows(image, film);
+    describePlace(image, film);
     return image;
 }
 

@@ -2,7 +2,7 @@
 
 #include "host/flatten/project.hpp"
 #include "host/image/exr.hpp"
-#include "host/render/film_window.hpp"
+#include "host/render/film_place.hpp"
 #include "version.h"
 
 #include <algorithm>
@@ -301,7 +301,7 @@ void writeSurfaces(const std::filesystem::path& path, SurfaceTracer& tracer, con
         picture.channels[name];
     }
     picture.counts["instance.X"];
-    setWindows(picture, film);
+    describePlace(picture, film);
     ExrWriter writer(path, picture);
     for (std::uint32_t first = 0; first < film.height; first += band.height) {
         band = first == 0 ? std::move(band) : bandAt(first);

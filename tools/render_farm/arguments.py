@@ -25,7 +25,7 @@ REFUSED = {
     "--samples": SPLITS, "--time": STOPS, "--adaptive": STOPS,
     "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
     "--rows": "the farm cuts the picture itself; expected --bands",
-    "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--ids": ONLY_FILMS, "--surfaces": ONLY_FILMS,
+    "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--layers": ONLY_FILMS, "--ids": ONLY_FILMS, "--surfaces": ONLY_FILMS,
     "--objects": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
 }

@@ -1,13 +1,14 @@
-#include "host/render/film_window.hpp"
+#include "host/render/film_place.hpp"
 
 #include "host/error.hpp"
+#include "host/render/film_camera.hpp"
 
 #include <sstream>
 
 namespace glim {
 namespace {
 
-constexpr const char* kCrop = "glim:crop";
+constexpr const char *kCrop = "glim:crop", *kCamera = "glim:camera";
 
 std::string cropText(const Crop& crop)
 {
@@ -36,8 +37,14 @@ bool agree(const Crop& crop, const Image& image)
 
 }  // namespace
 
-void setWindows(Image& image, const Film& film)
+void describePlace(Image& image, const Film& film)
 {
+    if (!film.camera.empty()) {
+        image.attributes[kCamera] = film.camera;
+    }
+    if (const auto worldToCamera = worldToCameraOf(film.camera)) {
+        image.attributes["worldToCamera"] = *worldToCamera;
+    }
     image.width = film.width;
     image.height = film.height;
     image.rowsAbove = film.rowsAbove;
@@ -52,22 +59,33 @@ void setWindows(Image& image, const Film& film)
     }
 }
 
-void takeWindows(const std::filesystem::path& path, const Image& image, Film& film)
+void takePlace(const std::filesystem::path& path, const Image& image, Film& film)
 {
+    const auto textOf = [&image](const char* name) -> std::optional<std::string> {
+        const auto found = image.attributes.find(name);
+        if (found == image.attributes.end()) {
+            return std::nullopt;
+        }
+        const std::string* text = std::get_if<std::string>(&found->second);
+        return text != nullptr ? *text : "no text";
+    };
     film.width = image.width;
     film.height = image.height;
     film.rowsAbove = image.rowsAbove;
     film.rowsBelow = image.rowsBelow;
-    const auto found = image.attributes.find(kCrop);
-    if (found == image.attributes.end()) {
+    film.camera = textOf(kCamera).value_or("");
+    if (!film.camera.empty() && !worldToCameraOf(film.camera)) {
+        throw InputError(MessageId::Malformed, {part::file(path), ": its ", part::place("camera"), " is ", part::quoted(film.camera),
+                                                ", expected ", part::expected("JSON with a pose of four rows of four numbers"), "."});
+    }
+    const std::optional<std::string> text = textOf(kCrop);
+    if (!text) {
         return;
     }
-    const std::string* text = std::get_if<std::string>(&found->second);
-    film.crop = text != nullptr ? parseCrop(*text) : std::nullopt;
+    film.crop = parseCrop(*text);
     if (!film.crop || !agree(*film.crop, image)) {
-        throw InputError(MessageId::Malformed,
-                         {part::file(path), ": its ", part::place("crop"), " is ", part::quoted(text != nullptr ? *text : "a number"),
-                          ", expected ", part::expected("X,Y,W,H with all columns of its data window"), "."});
+        throw InputError(MessageId::Malformed, {part::file(path), ": its ", part::place("crop"), " is ", part::quoted(*text), ", expected ",
+                                                part::expected("X,Y,W,H with all columns of its data window"), "."});
     }
     auto& [corner, size, whole] = *film.crop;
     whole = {image.columnsLeft + image.width + image.columnsRight, image.rowsAbove + image.height + image.rowsBelow};
