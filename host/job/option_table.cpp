@@ -101,6 +101,13 @@ const Option& Option::excludes(const Option& other) const
     return *this;
 }
 
+const Option& Option::holds(OptionKind kind, const std::vector<std::string>& choices) const
+{
+    table_->entries_[index_].kind = kind;
+    table_->entries_[index_].choices = choices;
+    return *this;
+}
+
 Option OptionTable::add(const std::string& names, const std::string& unit, const std::string& help,
                         std::function<void(const OptionValue&)> take)
 {
@@ -115,23 +122,23 @@ Option OptionTable::add(const std::string& names, const std::string& unit, const
 
 Option OptionTable::addText(const std::string& names, const std::string& unit, const std::string& help, std::string& text)
 {
-    return add(names, unit, help, [&text](const OptionValue& value) { text = value.text(); });
+    return add(names, unit, help, [&text](const OptionValue& value) { text = value.text(); }).holds(OptionKind::Text);
 }
 
 Option OptionTable::addText(const std::string& names, const std::string& unit, const std::string& help, std::optional<std::string>& text)
 {
-    return add(names, unit, help, [&text](const OptionValue& value) { text = value.text(); });
+    return add(names, unit, help, [&text](const OptionValue& value) { text = value.text(); }).holds(OptionKind::Text);
 }
 
 Option OptionTable::addPath(const std::string& names, const std::string& unit, const std::string& help, std::filesystem::path& path)
 {
-    return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); });
+    return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); }).holds(OptionKind::Path);
 }
 
 Option OptionTable::addPath(const std::string& names, const std::string& unit, const std::string& help,
                             std::optional<std::filesystem::path>& path)
 {
-    return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); });
+    return add(names, unit, help, [&path](const OptionValue& value) { path = value.text(); }).holds(OptionKind::Path);
 }
 
 Option OptionTable::addEach(const std::string& names, const std::string& unit, const std::string& help,
@@ -153,13 +160,15 @@ Option OptionTable::addPaths(const std::string& name, const std::string& unit, c
 Option OptionTable::addFlag(const std::string& names, const std::string& help, bool& flag)
 {
     const std::string name = splitText(names, ',').back();
-    return add(names, "", help, [&flag, name](const OptionValue& value) {
-        if (value.text() != "true" && value.text() != "false") {
-            throw UsageError(MessageId::WrongType,
-                             {part::place(name), ": ", part::quoted(value.text()), ": expected ", part::expected("true or false")});
-        }
-        flag = value.text() == "true";
-    });
+    return add(names, "", help,
+               [&flag, name](const OptionValue& value) {
+                   if (value.text() != "true" && value.text() != "false") {
+                       throw UsageError(MessageId::WrongType, {part::place(name), ": ", part::quoted(value.text()), ": expected ",
+                                                               part::expected("true or false")});
+                   }
+                   flag = value.text() == "true";
+               })
+        .holds(OptionKind::Flag);
 }
 
 void OptionTable::hide(const std::vector<std::string>& names)

@@ -46,6 +46,9 @@ private:
 
 class OptionTable;
 
+// What values of an option are. Other: what its unit says.
+enum class OptionKind { Other, Flag, Text, Path, Whole, Number, Choice };
+
 // An option of a table.
 class Option {
 public:
@@ -57,6 +60,8 @@ public:
     const Option& require(bool required = true) const;
     const Option& needs(const Option& other) const;
     const Option& excludes(const Option& other) const;
+    // `choices`: the words of a Choice.
+    const Option& holds(OptionKind kind, const std::vector<std::string>& choices = {}) const;
 
 private:
     friend class OptionTable;
@@ -71,6 +76,8 @@ public:
         std::vector<std::string> names;  // "-o", "--output"; without dashes: an argument. The help has the last of several long ones
         std::string unit, help, group;   // `unit` as in "OUT.exr"; none: a flag
         std::function<void(const OptionValue&)> take;
+        OptionKind kind = OptionKind::Other;
+        std::vector<std::string> choices;
         enum class Takes { One, Each, Several } takes = Takes::One;  // Each: one each time it is given; Several: all that follow
         bool isHidden = false, isRequired = false;
         std::vector<std::size_t> needs, excludes;

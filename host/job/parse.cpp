@@ -84,7 +84,8 @@ template <class T>
 Option addNumber(OptionTable& table, const NumberOption<T>& option, std::function<void(T)> store)
 {
     const std::string help = option.what + ", " + toText(option.low) + " to " + toText(option.high) + " [" + option.fallback + "]";
-    return table.add(option.name, option.unit, help, [option, store](const OptionValue& value) { store(parseBounded(option, value)); });
+    return table.add(option.name, option.unit, help, [option, store](const OptionValue& value) { store(parseBounded(option, value)); })
+        .holds(std::is_integral_v<T> ? OptionKind::Whole : OptionKind::Number);
 }
 
 template Option addNumber(OptionTable&, const NumberOption<std::uint32_t>&, std::function<void(std::uint32_t)>);
@@ -94,15 +95,18 @@ template Option addNumber(OptionTable&, const NumberOption<double>&, std::functi
 Option addChoice(OptionTable& table, const std::string& name, const std::string& unit, const std::string& help,
                  const std::vector<std::string>& names, std::function<void(std::size_t)> store)
 {
-    return table.add(name, unit, help, [name, names, store](const OptionValue& value) {
-        const std::string text = value.boolean() ? (*value.boolean() ? "on" : "off") : value.text();
-        const auto found = std::find(names.begin(), names.end(), text);
-        if (found == names.end()) {
-            throw UsageError(MessageId::UnknownName,
-                             {part::place(name), ": ", part::quoted(text), ": expected ", part::expected(join(names, " or "))});
-        }
-        store(static_cast<std::size_t>(found - names.begin()));
-    });
+    return table
+        .add(name, unit, help,
+             [name, names, store](const OptionValue& value) {
+                 const std::string text = value.boolean() ? (*value.boolean() ? "on" : "off") : value.text();
+                 const auto found = std::find(names.begin(), names.end(), text);
+                 if (found == names.end()) {
+                     throw UsageError(MessageId::UnknownName,
+                                      {part::place(name), ": ", part::quoted(text), ": expected ", part::expected(join(names, " or "))});
+                 }
+                 store(static_cast<std::size_t>(found - names.begin()));
+             })
+        .holds(OptionKind::Choice, names);
 }
 
 Option addSceneIndex(OptionTable& table, std::optional<std::size_t>& index)
