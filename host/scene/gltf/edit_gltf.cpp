@@ -169,6 +169,24 @@ private:
     const Edit& edit_;
 };
 
+// `document` after the edits, checked.
+json editDocument(const std::string& path, json document, std::span<const Edit> edits, Warnings& warnings)
+{
+    for (const Edit& edit : edits) {
+        Editor(path, document, edit).apply();
+        checkGltfJson(path, document, warnings);
+    }
+    return document;
+}
+
+json readDocument(const std::string& path)
+{
+    Warnings unheard;  // the file's reader says them
+    json document = parseJson(path, openContainer(path).json);
+    checkGltfJson(path, document, unheard);
+    return document;
+}
+
 // `to` with the parts of `document` that edits may change, but for the weights of meshes.
 json copyParts(const json& document, json to)
 {
@@ -187,18 +205,11 @@ void editGltf(GltfFile& file, std::span<const Edit> edits)
     if (edits.empty() && !file.original) {
         return;
     }
-    Warnings warnings;
     if (!file.original) {
-        json original = parseJson(file.path, openContainer(file.path).json);
-        checkGltfJson(file.path, original, warnings);
-        file.original = std::make_shared<const json>(std::move(original));
-        warnings = {};  // known since the file was read
+        file.original = std::make_shared<const json>(readDocument(file.path));
     }
-    json document = *file.original;
-    for (const Edit& edit : edits) {
-        Editor(file.path, document, edit).apply();
-        checkGltfJson(file.path, document, warnings);
-    }
+    Warnings warnings;
+    const json document = editDocument(file.path, *file.original, edits, warnings);
     tinygltf::Model changed = parseModel(file.path, copyParts(document, {{"asset", document["asset"]}}));
     file.editWarnings = std::move(warnings);
     file.model.nodes = std::move(changed.nodes);
@@ -220,6 +231,46 @@ void editGltf(GltfFile& file, std::span<const Edit> edits)
         }
         file.document = std::make_shared<const json>(std::move(whole));
     }
+}
+
+struct EditableFile::Contents {
+    std::string path;
+    json document;
+};
+
+EditableFile::EditableFile(const std::filesystem::path& file)
+{
+    json document = readDocument(file.string());
+    for (const char* list : {"buffers", "images"}) {  // whose data no edit needs, and every edit would copy
+        if (document.contains(list)) {
+            for (json& element : document[list]) {
+                element.erase("uri");
+            }
+        }
+    }
+    contents_ = std::make_shared<const Contents>(Contents{file.string(), std::move(document)});
+}
+
+std::vector<std::string> EditableFile::namesAt(const std::string& list) const
+{
+    std::vector<std::string> names;
+    for (const json& element : contents_->document.value(json::json_pointer(list), json::array())) {
+        names.push_back(element.value("name", ""));
+    }
+    return names;
+}
+
+std::string EditableFile::valueAt(const std::string& pointer, const std::vector<Edit>& edits) const
+{
+    Warnings unheard;
+    json value = editDocument(contents_->path, contents_->document, edits, unheard).at(json::json_pointer(pointer));
+    if (value.contains("matrix")) {
+        json parts = value;
+        if (splitMatrix(parts)) {
+            value.update(parts);
+        }
+    }
+    return value.dump();
 }
 
 }  // namespace glim
