@@ -1,6 +1,7 @@
 // The C++ side of `import glim`. Keyword arguments are the options of a job.
 #include "host/atomic_file.hpp"
 #include "host/gpu/device.hpp"
+#include "host/image/exr.hpp"
 #include "host/job/render_picture.hpp"
 #include "host/job/render_report.hpp"
 #include "host/job/surface_files.hpp"
@@ -12,6 +13,8 @@
 #include "shaders/shared/limits.h"
 
 #include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -21,9 +24,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <deque>
 #include <exception>
+#include <iterator>
 #include <mutex>
+#include <string_view>
 
 namespace nb = nanobind;
 
@@ -46,9 +54,9 @@ void refuseFork()
 }
 
 // Options that write files or make several pictures: in Python the caller does that.
-constexpr const char* kRefused[] = {"--image",     "--rates",      "--layers", "--ids",           "--surfaces", "--objects",
-                                    "--stats",     "--checkpoint", "--resume", "--on-checkpoint", "--progress", "--frames",
-                                    "--turntable", "--cameras",    "--replay", "--suspects"};
+constexpr const char* kRefused[] = {"--image",    "--rates",   "--layers",    "--compression", "--ids",    "--surfaces",
+                                    "--flow",     "--objects", "--stats",     "--checkpoint",  "--resume", "--on-checkpoint",
+                                    "--progress", "--frames",  "--turntable", "--cameras",     "--replay", "--suspects"};
 
 // The Json of a Python value: bytes, a bool, a number, a list of bytes and numbers, or a dict of these (glim/_options.py).
 Json valueOf(nb::handle value)
@@ -80,7 +88,8 @@ Json valueOf(nb::handle value)
     return list;
 }
 
-RenderJob jobOf(const nb::dict& values)
+// `allowed`: one of kRefused.
+RenderJob jobOf(const nb::dict& values, std::string_view allowed = "")
 {
     RenderJob job;
     OptionTable table;
@@ -90,12 +99,39 @@ RenderJob jobOf(const nb::dict& values)
         table.set(nb::cast<std::string>(name), valueOf(value));
     }
     for (const char* name : kRefused) {
-        if (table.isGiven(name)) {
+        if (name != allowed && table.isGiven(name)) {
             throw UsageError(MessageId::Unsupported, {part::place(name), ": is for the command line alone"});
         }
     }
     table.finish();
     return job;
+}
+
+// The options of a job, for the types in glim/_render_options.py.
+nb::list options()
+{
+    constexpr std::array kKinds{"other", "flag", "text", "path", "whole", "number", "choice"};
+    RenderJob job;
+    OptionTable table;
+    addJobOptions(table, job);
+    const std::deque<OptionTable::Entry>& entries = table.entries();
+    const auto isRefused = [](const OptionTable::Entry& entry) {
+        return entry.isArgument() || entry.name() == "--output" || std::ranges::find(kRefused, entry.name()) != std::end(kRefused);
+    };
+    nb::list list;
+    for (const OptionTable::Entry& entry : entries) {
+        if (isRefused(entry) || std::ranges::any_of(entry.needs, [&](std::size_t other) { return isRefused(entries[other]); })) {
+            continue;
+        }
+        nb::dict option;
+        option["name"] = entry.name();
+        option["unit"] = entry.unit;
+        option["help"] = entry.help;
+        option["kind"] = kKinds.at(static_cast<std::size_t>(entry.kind));
+        option["choices"] = entry.choices;
+        list.append(option);
+    }
+    return list;
 }
 
 // Asks Python whether a render goes on. Python's exceptions wait until the film is done.
@@ -161,13 +197,33 @@ public:
         return lastFilm_;
     }
 
+    // From, at and up of each picture of a turntable.
+    std::vector<std::array<std::array<double, 3>, 3>> turntable(const nb::dict& values)
+    {
+        refuseFork();
+        const RenderJob options = jobOf(values, "--turntable");
+        const nb::gil_scoped_release release;
+        const std::lock_guard lock(rendering);
+        auto [session, rayKernels] = takeSession(options);
+        std::vector<std::array<std::array<double, 3>, 3>> poses;
+        for (const Shot& shot : listShots(options.sequence, options, session->prepared().scene)) {
+            const auto numbers = [](const glm::dvec3& point) { return std::array{point.x, point.y, point.z}; };
+            poses.push_back({numbers(shot.pose->from), numbers(shot.pose->at), numbers(shot.pose->up)});
+        }
+        keep(std::move(session), std::move(rayKernels));
+        return poses;
+    }
+
 private:
-    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, const Wanted& wanted, Watcher& watcher)
+    using Session = std::pair<std::unique_ptr<SceneSession>, RayKernels>;
+
+    // A session that is posed for the options. None stays if anything is thrown before keep().
+    Session takeSession(const RenderJob& options)
     {
         if (session_ && session_->serves(options)) {
             session_->pose(options.edits, options.at);  // what the scene refuses changes nothing
         }
-        // None stays if anything is thrown. The kernels go before the device, which the session has.
+        // The kernels go before the device, which the session has.
         std::unique_ptr<SceneSession> session = std::move(session_);
         RayKernels rayKernels = std::move(rayKernels_);
         if (!session || !session->serves(options)) {
@@ -176,6 +232,12 @@ private:
             session = std::make_unique<SceneSession>(options);
         }
         session->pose(options.edits, options.at);
+        return {std::move(session), std::move(rayKernels)};
+    }
+
+    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, const Wanted& wanted, Watcher& watcher)
+    {
+        auto [session, rayKernels] = takeSession(options);
         if (options.settings.aov == Aov::Radiance) {
             warnIfNoLights(session->prepared());
         }
@@ -261,6 +323,20 @@ std::pair<std::shared_ptr<PythonFilm>, bool> merge(const std::vector<std::shared
     return {std::make_shared<PythonFilm>(std::move(merged.film), std::nullopt), merged.exact};
 }
 
+// Radiance as a file that the option --environment takes.
+void writeMap(const std::filesystem::path& path,
+              const nb::ndarray<const float, nb::shape<-1, -1, 3>, nb::c_contig, nb::device::cpu>& texels)
+{
+    Image image;
+    image.height = static_cast<std::uint32_t>(texels.shape(0));
+    image.width = static_cast<std::uint32_t>(texels.shape(1));
+    const std::array channels{&image.channels["R"], &image.channels["G"], &image.channels["B"]};
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        channels[i % 3]->push_back(texels.data()[i]);
+    }
+    writeExr(path, image);
+}
+
 nb::list devices()
 {
     refuseFork();
@@ -314,7 +390,20 @@ NB_MODULE(_glim, module)
     nb::class_<PythonScene>(module, "Scene")
         .def(nb::init<>())
         .def("render", &PythonScene::render, nb::arg("values"), nb::arg("resumed").none(), nb::arg("wanted"), nb::arg("progress").none())
+        .def("turntable", &PythonScene::turntable, nb::arg("values"))
         .def_prop_ro("last_film", &PythonScene::lastFilm);
+    nb::class_<EditableFile>(module, "EditableFile")
+        .def(nb::init<const std::filesystem::path&>(), nb::call_guard<nb::gil_scoped_release>())
+        .def("names", &EditableFile::namesAt)
+        .def("value", [](const EditableFile& file, const std::string& pointer, const nb::dict& values) {
+            std::vector<Edit> edits;
+            for (const auto& [name, value] : values) {
+                edits.push_back(parseEdit({nb::cast<std::string>(name), valueOf(value)}));
+            }
+            return file.valueAt(pointer, edits);
+        });
+    module.def("options", &options);
+    module.def("write_map", &writeMap);
     module.def("merge", &merge, nb::arg("films"), nb::call_guard<nb::gil_scoped_release>());
     module.def("devices", &devices);
     module.def("write_file", [](const std::filesystem::path& path, const nb::bytes& content) {

@@ -15,16 +15,27 @@ import os
 import sys
 import tempfile
 import threading
+import time
 import warnings
-from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 
+from glim._additions import Light, Plane, written
 from glim._camera import Camera
+from glim._elements import Addition, Elements, FileCamera, Material, Node, PunctualLight, SceneFile, columns_of
 from glim._errors import DeviceError, GlimWarning, InputError, unusable
-from glim._options import in_python, path_of, values_of
+from glim._options import additions_of, in_python, path_of, values_of
+from glim._own_files import OwnFile, texels_of
+from glim._version import __version__
 
-__all__ = ["Camera", "DeviceError", "Error", "Film", "GlimWarning", "InputError", "Scene", "devices", "load", "look_at", "merge", "read", "render"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from glim._render_options import RenderOptions
+
+__all__ = ["Addition", "Camera", "DeviceError", "Error", "Film", "GlimWarning", "InputError", "Light", "Plane", "Scene", "__version__",
+           "devices", "load", "look_at", "merge", "read", "render"]
 
 Path = Union[str, "os.PathLike[str]"]
 Progress = Callable[[int, int, float], Any]
@@ -274,7 +285,7 @@ class Film:
         """SHA-256 of the pixels alone. Films with the same bits have the same one, whatever kernels and device made them."""
         return self._native.pixels_digest
 
-    def resume(self, progress: Optional[Progress] = None, **options) -> "Film":
+    def resume(self, progress: Optional[Progress] = None, **options: "Unpack[RenderOptions]") -> "Film":
         """Renders more samples, as in film.resume(spp=1024), and returns the film of all, with the bits of one render. Options are those
         of the film but for the ones that are given. For films that this process has rendered; Scene.render(resume=film) takes others."""
         if self._again is None:
@@ -350,11 +361,13 @@ def _of_bytes(exr):
 class Scene:
     """A scene that stays on the device. It is read when it is first rendered, and again when one of its files has changed."""
 
-    def __init__(self, path: Path, **options):
+    def __init__(self, path: Path, **options: "Unpack[RenderOptions]"):
         self.path = path
-        self._options = options
         path_of(path, "scene")
-        values_of(options)
+        self._read_files = {}  # by path
+        self._own_files, self._map = [], None
+        self._options = self._original = self._resolved(options)
+        values_of(self._options)
         self._native = None
         self._lock = threading.Lock()
         self._last = None
@@ -364,8 +377,76 @@ class Scene:
         """The film of the last render, also if Ctrl-C or `progress` has stopped it. None if there is none."""
         return self._film(*self._last) if self._last else None
 
+    @property
+    def nodes(self) -> Elements[Node]:
+        """Of the scene's own file, by index or name: scene.nodes["chair"].visible = False. What is set holds for the renders that follow;
+        the file stays as it is."""
+        return self._file().nodes
+
+    @property
+    def materials(self) -> Elements[Material]:
+        return self._file().materials
+
+    @property
+    def lights(self) -> Elements[PunctualLight]:
+        """Point, spot and directional lights of the scene's own file."""
+        return self._file().lights
+
+    @property
+    def cameras(self) -> Elements[FileCamera]:
+        return self._file().cameras
+
+    @property
+    def edits(self) -> Dict[str, Any]:
+        """What was set, by pointers of the glTF object model. A copy."""
+        edits = self._options.get("set") or {}
+        if not isinstance(edits, dict):
+            raise InputError("set: cannot use %r with Scene.set, expected a dict of pointers and values" % (edits,), "wrong-type",
+                             place="set", value=repr(edits), expected="a dict of pointers and values")
+        return dict(edits)
+
+    def set(self, pointer: str, value) -> None:
+        """Sets a value of the scene for the renders that follow; the file stays as it is.
+
+        pointer: of the glTF object model, as in "/materials/paint/pbrMetallicRoughness/baseColorFactor". The name of an element may
+            replace its index.
+        value: a number, a sequence of numbers, a bool or a text. None undoes the change.
+        Films that were rendered with different changes cannot be merged."""
+        edits = self.edits
+        edits.pop(pointer, None)
+        options = {**self._options, "set": edits if value is None else {**edits, pointer: value}}
+        values_of(options)
+        self._options = options
+
+    def add(self, thing: Union[Path, Light, Plane], matrix: Any = None) -> Addition:
+        """Adds another file's shapes and lights, a glim.Light or a glim.Plane. A file can be added several times.
+
+        matrix: 4x4, of the added file to world, metres.
+        The scene is read anew at its next render: what moves then is better moved by the nodes of what this returns."""
+        columns = columns_of("matrix", numpy.eye(4) if matrix is None else matrix)
+        if isinstance(thing, (Light, Plane)):
+            self._own_files.append(OwnFile(type(thing).__name__.lower() + ".gltf"))
+            path = os.fspath(self._own_files[-1])
+            with open(path, "wb") as file:
+                file.write(written(thing))
+        else:
+            path = os.path.abspath(path_of(thing, "thing"))
+        before = additions_of(self._options.get("add"))
+        while any(other == path or other.startswith(path + "@") for other in before):  # another spelling, by which edits tell one from the other
+            path = os.path.join(os.path.dirname(path), ".", os.path.basename(path))
+        added = Addition(self, path, path + "#")
+        added.names("/nodes")  # refuses what is no glTF file
+        options = {**self._options, "add": [*before, "%s@%s" % (path, ",".join(map(repr, columns)))]}
+        values_of(options)
+        self._options = options
+        return added
+
+    def reset(self) -> None:
+        """Undoes all edits and additions since the scene was loaded."""
+        self._options = self._original
+
     def render(self, *, resume: Optional[Film] = None, ids: bool = False, surfaces: bool = False, flow: Optional[float] = None,
-               objects: bool = False, progress: Optional[Progress] = None, **options) -> Film:
+               objects: bool = False, progress: Optional[Progress] = None, **options: "Unpack[RenderOptions]") -> Film:
         """Renders a picture.
 
         resume: a film of the same picture with fewer samples, to go on from.
@@ -374,27 +455,56 @@ class Scene:
         progress: called several times a second with samples so far and in all, over all pixels, and seconds. What it raises ends the
             render, as Ctrl-C does: the film so far is last_film, and the exception's `film`.
         options: those of `glim render --help-all`, with underscores: spp=256, size=(640, 480), camera="top", **look_at(...), seed=1,
-            target_rmse=.01 (a share of the mean), environment="sky.hdr", device="llvmpipe". They come on top of those of the scene.
+            target_rmse=.01 (a share of the mean), environment="sky.hdr" or an array of (height, width, 3), device="llvmpipe". They come on
+            top of those of the scene.
 
         Other threads may run meanwhile; one picture is rendered at a time. Raises InputError and DeviceError."""
-        asked = {**self._options, **options}
-        values = {"file": os.fsencode(path_of(self.path, "scene")), **values_of(asked)}
+        asked = {**self._options, **self._resolved(options)}
         before = None if resume is None else _native_film(resume, "resume")
         wanted = self._wanted(asked, bool(ids), bool(surfaces), bool(objects), flow)
         if progress is not None and not callable(progress):
             raise unusable("progress", progress, "a function")
-        if getattr(_heard, "messages", None) is not None:
-            raise RuntimeError("glim: `progress` cannot render, as one picture is rendered at a time")
-        with self._lock, _call() as native:
-            self._native = self._native or native.Scene()
+        with self._rendering(asked) as (scene, values):
             try:
-                rendered = self._native.render(values, before, native.Wanted(*wanted), progress)
+                rendered = scene.render(values, before, _native().Wanted(*wanted), progress)
             except (InputError, DeviceError):
                 raise
             except BaseException as stop:
-                stop.film = self._keep(asked, self._native.last_film)
+                stop.film = self._keep(asked, scene.last_film)
                 raise
             return self._keep(asked, rendered)
+
+    def render_many(self, *, at: Optional[Iterable[float]] = None, turntable: Optional[int] = None,
+                    cameras: Optional[Iterable[Union[Camera, FileCamera, str, int, Dict[str, Any]]]] = None, ids: bool = False,
+                    surfaces: bool = False, flow: Optional[float] = None, objects: bool = False,
+                    progress: Optional[Callable[[float, int, float], Any]] = None, **options: "Unpack[RenderOptions]") -> Iterator[Film]:
+        """Renders one picture after another, each when it is asked for: for film in scene.render_many(turntable=36, spp=64). Edits hold for
+        the pictures that follow them.
+
+        at: seconds of the file's animation.
+        turntable: how many pictures from a circle around the scene, counter-clockwise seen from above.
+        cameras: glim.Camera, names or indices of cameras of the file, or dicts of options, as look_at returns them.
+        progress: called several times a second with pictures so far, which need not be whole, pictures in all, and seconds. What it raises
+            ends the render.
+        ids, surfaces, objects, flow, options: as of render."""
+        lists = {"at": at, "turntable": turntable, "cameras": cameras}
+        given = [name for name, value in lists.items() if value is not None]
+        if len(given) != 1:
+            raise InputError("render_many: cannot use %s, expected one of at, turntable and cameras" % (" and ".join(given) or "none"),
+                             "conflict" if given else "missing", expected="one of at, turntable and cameras")
+        if progress is not None and not callable(progress):
+            raise unusable("progress", progress, "a function")
+        options = self._resolved(options)
+        if turntable is None:
+            name = given[0]
+            if isinstance(lists[name], (str, bytes, dict)) or not isinstance(lists[name], Iterable):
+                raise unusable(name, lists[name], "a sequence")
+            pictures = [one if isinstance(one, dict) else {name.rstrip("s"): one} for one in lists[name]]
+        else:
+            pictures = self._turntable(turntable, options)
+        for picture in pictures:
+            values_of({**options, **picture})
+        return self._render_each(pictures, progress, {**options, "ids": ids, "surfaces": surfaces, "flow": flow, "objects": objects})
 
     @staticmethod
     def _wanted(asked, ids, surfaces, objects, flow):
@@ -407,24 +517,63 @@ class Scene:
                              expected="surfaces=True and at=SECONDS")
         return ids, surfaces, objects, float(flow)
 
-    def set(self, pointer: str, value) -> None:
-        """Sets a value of the scene for the renders that follow; the file stays as it is.
+    def _file(self):
+        """Its own; not kept, since it refers to the scene: a cycle would keep the device."""
+        return SceneFile(self, os.path.abspath(path_of(self.path, "scene")))
 
-        pointer: of the glTF object model, as in "/materials/paint/pbrMetallicRoughness/baseColorFactor". The name of an element may
-            replace its index.
-        value: a number, a sequence of numbers, a bool or a text. None undoes the change.
-        Films that were rendered with different changes cannot be merged."""
-        before = self._options.get("set") or {}
-        if not isinstance(before, dict):
-            raise InputError("set: cannot use %r with Scene.set, expected a dict of pointers and values" % (before,), "wrong-type",
-                             place="set", value=repr(before), expected="a dict of pointers and values")
-        edits = {key: edit for key, edit in before.items() if key != pointer}
-        options = {**self._options, "set": {**edits, pointer: value} if value is not None else edits}
-        values_of(options)
-        self._options = options
+    @contextlib.contextmanager
+    def _reading(self, path):
+        """What edits can change in a file, read again if it has changed."""
+        try:
+            status = os.stat(path)
+            stamp = (status.st_mtime_ns, status.st_size)
+        except OSError:
+            stamp = None
+        read, before = self._read_files.get(path, (None, None))
+        with _call() as native:
+            if read is None or stamp != before:
+                read = native.EditableFile(os.fsencode(path))
+                self._read_files[path] = read, stamp
+            yield read
+
+    def _turntable(self, count, options):
+        asked = {**self._options, **options, "turntable": count}
+        with self._rendering(asked) as (scene, values):
+            poses = scene.turntable(values)
+        return [{"camera": "framed", "look_from": tuple(origin), "look_at": tuple(target), "look_up": tuple(up)}
+                for origin, target, up in poses]
+
+    def _render_each(self, pictures, progress, options):
+        begin = time.monotonic()
+
+        def tell(done, total, _seconds):
+            progress(index + done / total, len(pictures), time.monotonic() - begin)
+        for index, picture in enumerate(pictures):
+            yield self.render(progress=progress and tell, **{**options, **picture})
+
+    def _resolved(self, options):
+        """Options with names of files in place of arrays."""
+        texels = texels_of(options.get("environment"))
+        if texels is None:
+            return options
+        if self._map is None or not numpy.array_equal(self._map[0], texels):
+            self._map = (texels, OwnFile("environment.exr"))
+            with _call() as native:
+                native.write_map(os.fspath(self._map[1]), texels)
+        return {**options, "environment": self._map[1]}
+
+    @contextlib.contextmanager
+    def _rendering(self, asked):
+        """The native scene and the values of these options."""
+        values = {"file": os.fsencode(path_of(self.path, "scene")), **values_of(asked)}
+        if getattr(_heard, "messages", None) is not None:
+            raise RuntimeError("glim: `progress` cannot render, as one picture is rendered at a time")
+        with self._lock, _call() as native:
+            self._native = self._native or native.Scene()
+            yield self._native, values
 
     def _keep(self, asked, rendered):
-        self._last = (rendered, asked) if rendered else None  # not the Film, which refers to the scene: a cycle would keep the device
+        self._last = (rendered, asked) if rendered else None  # not the Film, which refers to the scene
         return self.last_film
 
     def _film(self, rendered, asked):
@@ -434,14 +583,15 @@ class Scene:
         return "<glim.Scene %s>" % path_of(self.path, "scene")
 
 
-def load(scene: Path, **options) -> Scene:
+def load(scene: Path, **options: "Unpack[RenderOptions]") -> Scene:
     """A scene for many pictures. options: defaults of its Scene.render."""
     return Scene(scene, **options)
 
 
-def render(scene: Path, **options) -> Film:
+def render(scene: Path, *, resume: Optional[Film] = None, ids: bool = False, surfaces: bool = False, flow: Optional[float] = None,
+           objects: bool = False, progress: Optional[Progress] = None, **options: "Unpack[RenderOptions]") -> Film:
     """Renders one picture of a scene. The arguments are those of Scene.render."""
-    return Scene(scene).render(**options)
+    return Scene(scene).render(resume=resume, ids=ids, surfaces=surfaces, flow=flow, objects=objects, progress=progress, **options)
 
 
 def look_at(origin: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 1, 0), zoom: float = 1.0) -> Dict[str, Any]:

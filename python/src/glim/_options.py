@@ -3,7 +3,6 @@
 import os
 import re
 
-from glim._camera import Camera
 from glim._errors import InputError, unusable
 
 
@@ -21,9 +20,10 @@ def path_of(value, what):
 
 def values_of(options):
     """{"spp": 16, "size": (640, 480), "scene": None} -> {"spp": 16, "size": [640, 480]}. Texts become bytes, as names of files are."""
-    if isinstance(options.get("camera"), Camera):
+    camera = options.get("camera")
+    if hasattr(camera, "options"):  # glim.Camera, or one of scene.cameras
         given = {name: value for name, value in options.items() if name != "camera" and value is not None}
-        options = {**options["camera"].options(), **given}
+        options = {**camera.options(), **given}
     values = {}
     for name, value in options.items():
         if name in ("help", "help_all", "output", "file") or not re.fullmatch("[a-z][a-z_]*", name):
@@ -31,6 +31,15 @@ def values_of(options):
         if value is not None:
             values[name] = value_of(name, value)
     return values
+
+
+def additions_of(value):
+    """A value of the option `add`, as a list of texts."""
+    if value is None:
+        return []
+    if isinstance(value, dict):
+        return ["%s@%s" % (os.fsdecode(path), ",".join(map(repr, value_of("add", place)))) for path, place in value.items()]
+    return [os.fsdecode(value)] if isinstance(value, (str, bytes, os.PathLike)) else [os.fsdecode(one) for one in value]
 
 
 def value_of(name, value):
