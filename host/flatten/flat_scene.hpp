@@ -38,6 +38,14 @@ struct PackedEnvironment {
     std::uint64_t fingerprint = 0;  // of the texels
 };
 
+// What the emission of an instance's triangles is multiplied by on average, by a texture. It takes longer than all else of an edit.
+struct EmissionMeans {
+    std::weak_ptr<const DecodedImage> image;
+    Texture texture;
+    std::vector<glm::vec4> uvs;  // three of each triangle: set 0 and set 1
+    std::vector<double> means;   // 0 only where the texture is black all over the triangle
+};
+
 // That the references of a primitive say which light it is.
 struct LightMark {
     std::uint32_t primitive;
@@ -66,7 +74,8 @@ struct FlatScene {
     std::vector<std::uint64_t> imageBytes;  // of each image of the scene; 0: of one colour, which is in the factors. Not on the device
     std::vector<uvec4> albedos;             // empty without kFeaturePrincipled
     std::vector<FlatLight> lights;
-    std::vector<LightMark> lightMarks;  // in the references; not on the device
+    std::vector<LightMark> lightMarks;                                // in the references; not on the device
+    std::vector<std::shared_ptr<const EmissionMeans>> emissionMeans;  // not on the device
     std::vector<LightNode> lightNodes;
     std::uint32_t finiteLights = 0;               // the first lights
     float infiniteImportance = 0.0F;              // as in RenderParameters

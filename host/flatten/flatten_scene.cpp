@@ -361,6 +361,7 @@ FlatScene flatten(const Scene& scene, const Primitives& primitives, const WideBv
 {
     FlatScene flat;
     flat.images = previous.images;
+    flat.emissionMeans = previous.emissionMeans;
     if (scene.environment && scene.environment->radiance != glm::vec3(0.0F) && scene.environment->map == previous.environmentMap->source) {
         flat.environmentMap = previous.environmentMap;
     }

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -151,7 +152,8 @@ public:
         : flat_(flat),
           scene_(scene),
           primitives_(primitives),
-          refOfPrimitive_(refOfPrimitive)
+          refOfPrimitive_(refOfPrimitive),
+          meansBefore_(std::exchange(flat.emissionMeans, {}))
     {}
 
     void addInstance(std::size_t instance)
@@ -166,8 +168,9 @@ public:
         const std::vector<std::uint32_t> otherHalf = (surface.kind & kUnevenLight) == 0
                                                          ? findRectangles(surface, first, end)
                                                          : std::vector<std::uint32_t>(end - first, kNoPrimitive);
+        const std::shared_ptr<const EmissionMeans> means = hasEmissiveImage(material) ? meansOf(material, first, end) : nullptr;
         for (std::uint32_t i = first; i < end; ++i) {
-            const double factor = emissionOf(id, i);
+            const double factor = means ? means->means[i - first] : 1.0;
             const std::uint32_t other = otherHalf[i - first];
             if (factor > 0.0 && (other == kNoPrimitive || i < other)) {
                 addPolygon(surface, i, other, factor);
@@ -271,22 +274,32 @@ public:
     }
 
 private:
-    // What the emission of a triangle is multiplied by on average.
-    double emissionOf(std::uint32_t id, std::uint32_t triangle)
+    // Of an instance's triangles: those of the scene before if they are the same.
+    std::shared_ptr<const EmissionMeans> meansOf(const Material& material, std::uint32_t first, std::uint32_t end)
     {
-        const Material& material = scene_.materials[id];
-        if (!hasEmissiveImage(material)) {
-            return 1.0;
+        Texture texture = *material.textures[kSlotEmissive];
+        const std::uint32_t index = std::exchange(texture.image, 0);
+        const std::shared_ptr<const DecodedImage>& image = scene_.images[index].pixels;
+        std::vector<glm::vec4> uvs;
+        uvs.reserve(3 * std::size_t{end - first});
+        for (std::uint32_t i = first; i < end; ++i) {
+            for (int v = 0; v < 3; ++v) {
+                uvs.push_back(primitives_.vertexUvs[primitives_.vertexIndices[i][v]]);
+            }
         }
-        const std::uint32_t image = material.textures[kSlotEmissive]->image;
-        const auto known = images_.find(image);
-        const EmissiveImage& sums =
-            known != images_.end() ? known->second : images_.emplace(image, EmissiveImage(*scene_.images[image].pixels)).first->second;
-        glm::vec4 uvs[3];
-        for (int v = 0; v < 3; ++v) {
-            uvs[v] = primitives_.vertexUvs[primitives_.vertexIndices[triangle][v]];
+        const auto known = std::ranges::find_if(meansBefore_, [&](const std::shared_ptr<const EmissionMeans>& before) {
+            return before->image.lock() == image && before->texture == texture && before->uvs == uvs;
+        });
+        if (known != meansBefore_.end()) {
+            return flat_.emissionMeans.emplace_back(*known);
         }
-        return sums.mean(*material.textures[kSlotEmissive], uvs);
+        const EmissiveImage& sums = images_.try_emplace(index, *image).first->second;
+        std::vector<double> means;
+        for (std::size_t i = 0; i < uvs.size(); i += 3) {
+            means.push_back(sums.mean(texture, {uvs[i], uvs[i + 1], uvs[i + 2]}));
+        }
+        return flat_.emissionMeans.emplace_back(
+            std::make_shared<const EmissionMeans>(EmissionMeans{image, texture, std::move(uvs), std::move(means)}));
     }
 
     // An image of one colour is part of the factors.
@@ -394,6 +407,7 @@ private:
     const Scene& scene_;
     const Primitives& primitives_;
     std::span<const std::uint32_t> refOfPrimitive_;
+    std::vector<std::shared_ptr<const EmissionMeans>> meansBefore_;
     std::vector<FiniteLight> finite_;
     std::vector<double> powers_;  // of these, W/sr
     std::vector<FlatLight> infinite_;

@@ -159,6 +159,39 @@ class ElementsTest(PythonCase):
                 self.lamp.reset()
                 self.assertEqual(getattr(element, name), before)
 
+    def test_edits_of_a_light_with_a_texture(self):
+        """How lights are sampled is that of a scene that is loaded so."""
+        film = glim.render(LAMP, size=(16, 16), spp=1)
+        film.save(self.path("glow.png"))
+
+        def glow(document):
+            corners = np.float32([[-1, 1, 0], [1, 1, 0], [-1, 2, 0], [1, 2, .5]]).tobytes()
+            numbers = corners + np.float32([[0, 0], [1, 0], [0, 1], [1, 1]]).tobytes() + np.uint16([0, 1, 2, 2, 1, 3]).tobytes()
+            document["buffers"].append({"byteLength": len(numbers), "uri": "data:;base64," + base64.b64encode(numbers).decode()})
+            buffer, view, accessor = len(document["buffers"]) - 1, len(document["bufferViews"]), len(document["accessors"])
+            document["bufferViews"] += [{"buffer": buffer, "byteOffset": at, "byteLength": length} for at, length in ((0, 48), (48, 32), (80, 12))]
+            document["accessors"] += [
+                {"bufferView": view, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, 1, 0], "max": [1, 2, .5]},
+                {"bufferView": view + 1, "componentType": 5126, "count": 4, "type": "VEC2"},
+                {"bufferView": view + 2, "componentType": 5123, "count": 6, "type": "SCALAR"}]
+            document["images"], document["textures"] = [{"uri": "glow.png"}], [{"source": 0}]
+            document["materials"].append({"name": "glow", "emissiveFactor": [1, 1, 1], "emissiveTexture": {
+                "index": 0, "extensions": {"KHR_texture_transform": {"offset": [0, 0]}}}})
+            document["meshes"].append({"primitives": [{"attributes": {"POSITION": accessor, "TEXCOORD_0": accessor + 1},
+                                                       "indices": accessor + 2, "material": len(document["materials"]) - 1}]})
+            document["nodes"].append({"name": "glow", "mesh": len(document["meshes"]) - 1})
+            document["scenes"][0]["nodes"].append(len(document["nodes"]) - 1)
+        written_anew(self, glow)
+        kept, digests = glim.load(self.path("changed.gltf"), **SMALL), set()
+        for pointer, value in (("/materials/glow/pbrMetallicRoughness/roughnessFactor", .5), ("/nodes/glow/translation", (0, .1, 0)),
+                               ("/materials/glow/emissiveTexture/extensions/KHR_texture_transform/offset", (.3, .4)),
+                               ("/materials/glow/emissiveTexture/extensions/KHR_texture_transform/scale", (.2, .3)),
+                               ("/nodes/glow/scale", (1, 2, 1))):
+            kept.set(pointer, value)
+            digests.add(kept.render().digest)
+            self.assertEqual(kept.render().digest, glim.render(self.path("changed.gltf"), set=kept.edits, **SMALL).digest, pointer)
+        self.assertEqual(len(digests), 5)
+
     def test_edits_are_those_of_set(self):
         ball = self.lamp.materials["white"]
         self.lamp.set("/materials/white/pbrMetallicRoughness/baseColorFactor", (1, 0, 0, .5))
