@@ -4,6 +4,7 @@
 #include "host/measure/error_estimate.hpp"
 #include "host/message.hpp"
 #include "host/render/film_pictures.hpp"
+#include "host/render/layers_file.hpp"
 
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/filesystem.h>
@@ -171,10 +172,15 @@ void saveExr(const PythonFilm& film, const std::filesystem::path& path)
     }
 }
 
+Film shownFilm(const PythonFilm& film)
+{
+    return film.denoising() ? showDenoised(film.film(), film.denoising()->picture.radiance) : film.film();
+}
+
 void savePicture(const PythonFilm& film, const std::filesystem::path& path, std::optional<double> exposure, const std::string& tone,
                  std::optional<std::uint32_t> width)
 {
-    const Film shown = film.denoising() ? showDenoised(film.film(), film.denoising()->picture.radiance) : film.film();
+    const Film shown = shownFilm(film);
     const Aov aov = getAov(shown);
     Look look{exposure ? *exposure : chooseExposure(shown, aov), Tone::None};
     for (const Tone known : {Tone::Neutral, Tone::Agx}) {
@@ -262,6 +268,7 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("denoised", &denoised)
         .def_prop_ro("measured", &measured)
         .def("save", &saveExr)
+        .def("save_layers", [](const PythonFilm& film, const std::filesystem::path& path) { writeLayers(path, shownFilm(film)); })
         .def("save_picture", &savePicture, nb::arg("path"), nb::arg("exposure").none(), nb::arg("tone"), nb::arg("width").none());
     module.def(
         "read",

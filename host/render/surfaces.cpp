@@ -74,6 +74,41 @@ glm::dvec3 originOf(const Scene& scene, const FlatCamera& camera) { return scene
 
 glm::dvec2 pixelOf(const glm::dvec2& film, const glm::dvec2& size) { return 0.5 * size * glm::dvec2(1.0 + film.x, 1.0 - film.y); }
 
+// Where the values of pixels go.
+struct Planes {
+    Planes(Image& image, std::size_t flowCount)
+        : instance(image.counts["instance.X"])
+    {
+        const std::size_t pixels = std::size_t{image.width} * image.height;
+        instance.assign(pixels, kNoIndex);
+        const auto allocate = [&](const std::string& name, float value) {
+            image.channels[name].assign(pixels, value);
+            return image.channels[name].data();
+        };
+        constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+        position = {allocate("position.X", kNone), allocate("position.Y", kNone), allocate("position.Z", kNone)};
+        uv = {allocate("uv.U", kNone), allocate("uv.V", kNone)};
+        distance = allocate("distance.Y", std::numeric_limits<float>::infinity());
+        for (const std::string flow : std::span(kFlows).first(flowCount)) {
+            flows.push_back({allocate(flow + "X", kNone), allocate(flow + "Y", kNone)});
+        }
+    }
+
+    std::vector<std::uint32_t>& instance;
+    std::array<float*, 3> position{};
+    std::array<float*, 2> uv{};
+    float* distance = nullptr;
+    std::vector<std::array<float*, 2>> flows;
+};
+
+template <std::size_t N, class Vector>
+void store(const std::array<float*, N>& planes, std::size_t pixel, const Vector& value)
+{
+    for (std::size_t k = 0; k < N; ++k) {
+        planes[k][pixel] = static_cast<float>(value[static_cast<int>(k)]);
+    }
+}
+
 bool seesNothing(const PathRay& ray) { return ray.origin.x > 1e14F; }  // rayOfNothing of shaders/lib/camera.glsl
 
 }  // namespace
@@ -198,52 +233,39 @@ glm::dvec2 SurfaceTracer::flowTo(const Moment& moment, const Meeting& meeting, c
     return film ? pixelOf(*film, size_) - center : glm::dvec2(kNan);
 }
 
+glm::dvec2 SurfaceTracer::uvOf(const Meeting& meeting) const
+{
+    if (meeting.corners.x == kNoIndex) {
+        return glm::dvec2(kNan);
+    }
+    const Mesh& mesh = prepared_.scene.meshes[prepared_.scene.instances[meeting.part.object].mesh];
+    return mesh.uv0.empty() ? glm::dvec2(kNan) : glm::dvec2(blend(mesh.uv0, meeting.corners, glm::vec3(meeting.weights)));
+}
+
 Image SurfaceTracer::rows(std::uint32_t width, std::uint32_t first, std::uint32_t count)
 {
     Image image;
     image.width = width;
     image.height = count;
-    const std::size_t pixels = std::size_t{width} * count;
-    const auto allocate = [&](const std::string& name) {
-        image.channels[name].resize(pixels);
-        return image.channels[name].data();
-    };
-    const std::array position{allocate("position.X"), allocate("position.Y"), allocate("position.Z")};
-    const std::array uv{allocate("uv.U"), allocate("uv.V")};
-    float* const distance = allocate("distance.Y");
-    std::vector<std::array<float*, 2>> flows;
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
-        flows.push_back({allocate(std::string(kFlows[i]) + "X"), allocate(std::string(kFlows[i]) + "Y")});
-    }
-    std::vector<std::uint32_t>& instance = image.counts["instance.X"];
-    instance.assign(pixels, kNoIndex);
+    Planes planes(image, moments_.size());
     std::vector<std::uint32_t> chosen;
-    for (std::size_t begin = 0; begin < pixels; begin += chosen.size()) {
-        chosen.resize(std::min<std::size_t>(pixels - begin, rays_.rayCount()));
+    for (std::size_t begin = 0; begin < planes.instance.size(); begin += chosen.size()) {
+        chosen.resize(std::min<std::size_t>(planes.instance.size() - begin, rays_.rayCount()));
         std::iota(chosen.begin(), chosen.end(), static_cast<std::uint32_t>(std::size_t{first} * width + begin));
         const std::vector<PathHit> hits = rays_.trace(chosen, 0, 1);
         const std::vector<PathRay> rays = rays_.rays(chosen.size());
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             const std::size_t at = begin + i;
             const Meeting meeting = meet(rays[i], hits[i]);
-            const bool meets = meeting.part.object != kNoIndex;
-            for (int k = 0; k < 3; ++k) {
-                position[static_cast<std::size_t>(k)][at] = static_cast<float>(meeting.world[k]);
+            if (meeting.part.object != kNoIndex) {
+                planes.instance[at] = instances_.ofObject(meeting.part.object);
+                planes.distance[at] = hits[i].t;
             }
-            distance[at] = meets ? hits[i].t : std::numeric_limits<float>::infinity();
-            instance[at] = meets ? instances_.ofObject(meeting.part.object) : kNoIndex;
-            glm::dvec2 texture(kNan);
-            if (meeting.corners.x != kNoIndex) {
-                const Mesh& mesh = prepared_.scene.meshes[prepared_.scene.instances[meeting.part.object].mesh];
-                texture = mesh.uv0.empty() ? texture : glm::dvec2(blend(mesh.uv0, meeting.corners, glm::vec3(meeting.weights)));
-            }
-            uv[0][at] = static_cast<float>(texture.x);
-            uv[1][at] = static_cast<float>(texture.y);
+            store(planes.position, at, meeting.world);
+            store(planes.uv, at, uvOf(meeting));
             const glm::dvec2 center(chosen[i] % width + 0.5, chosen[i] / width + 0.5);
             for (std::size_t k = 0; k < moments_.size(); ++k) {
-                const glm::dvec2 flow = flowTo(moments_[k], meeting, rays[i], center);
-                flows[k][0][at] = static_cast<float>(flow.x);
-                flows[k][1][at] = static_cast<float>(flow.y);
+                store(planes.flows[k], at, flowTo(moments_[k], meeting, rays[i], center));
             }
         }
     }
@@ -253,40 +275,40 @@ Image SurfaceTracer::rows(std::uint32_t width, std::uint32_t first, std::uint32_
 std::vector<MetInstances> SurfaceTracer::meetAll(std::span<const std::uint32_t> pixels)
 {
     constexpr double kStep = 1e-5;
+    constexpr int kMostSurfaces = 4096;  // that a ray passes, or rays that rounding holds on one would never end
     std::vector<MetInstances> met(pixels.size());
     std::vector<std::uint32_t> places(pixels.size()), chosen(pixels.begin(), pixels.end());
     std::iota(places.begin(), places.end(), 0U);
     std::vector<PathHit> hits = rays_.trace(chosen, 0, 1);
     std::vector<PathRay> rays = rays_.rays(chosen.size());
-    const std::vector<PathRay> first = rays;
+    const std::vector<PathRay> cameraRays = rays;
     std::vector<double> distances(pixels.size(), 0.0);
-    while (!chosen.empty()) {
+    for (int passed = 0; passed < kMostSurfaces && !chosen.empty(); ++passed) {
         std::size_t left = 0;
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            const std::uint32_t object = findPart(prepared_, hits[i].primitiveRef).object;
+            const std::uint32_t object = findPart(prepared_, hits[i].primitiveRef).object, place = places[i];
             if (object == kNoIndex) {
                 continue;
             }
-            auto& [seen, all] = met[places[i]];
+            auto& [seen, all] = met[place];
             const std::uint32_t instance = instances_.ofObject(object);
             seen = all.empty() ? instance : seen;
             if (const auto at = std::ranges::lower_bound(all, instance); at == all.end() || *at != instance) {
                 all.insert(at, instance);
             }
-            double& distance = distances[places[i]];
-            distance = (distance + static_cast<double>(hits[i].t)) * (1.0 + kStep);
-            const PathRay& from = first[places[i]];
-            rays[left] = {vec3(glm::dvec3(from.origin) + distance * glm::dvec3(from.direction)), kNoPrimitive, from.direction, 0};
+            const glm::dvec3 from(cameraRays[place].origin), along(cameraRays[place].direction);
+            double& distance = distances[place];
+            distance += static_cast<double>(hits[i].t);
+            const glm::dvec3 reached = glm::abs(from + distance * along);
+            distance += kStep * std::max({distance, reached.x, reached.y, reached.z});  // more than float32 rounds places by
+            rays[left] = {vec3(from + distance * along), kNoPrimitive, cameraRays[place].direction, 0};
             chosen[left] = chosen[i];
-            places[left] = places[i];
-            ++left;
+            places[left++] = place;
         }
         chosen.resize(left);
         places.resize(left);
         rays.resize(left);
-        if (left > 0) {
-            hits = rays_.trace(chosen, rays);
-        }
+        hits = chosen.empty() ? std::vector<PathHit>() : rays_.trace(chosen, rays);
     }
     return met;
 }

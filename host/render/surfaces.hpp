@@ -65,6 +65,7 @@ private:
 
     const std::vector<std::uint32_t>& trianglesOf(std::uint32_t object);
     Meeting meet(const PathRay& ray, const PathHit& hit);
+    glm::dvec2 uvOf(const Meeting& meeting) const;
     glm::dvec2 flowTo(const Moment& moment, const Meeting& meeting, const PathRay& ray, const glm::dvec2& center) const;
 
     const PreparedScene& prepared_;

@@ -294,8 +294,9 @@ class Film:
         scene, before = self._again
         return scene.render(progress=progress, resume=self, **{**before, **options})
 
-    def save(self, path: Path, *, exposure: Union[float, str] = 0.0, tone: str = "none") -> None:
-        """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read; an sRGB picture (.png, .jpg, .jpeg or .webp); or the
+    def save(self, path: Path, *, exposure: Union[float, str] = 0.0, tone: str = "none", half: bool = False) -> None:
+        """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read, or with half=True one of RGBA, albedo and normal as
+        half floats, and depth, which they do not; an sRGB picture (.png, .jpg, .jpeg or .webp); or the
         arrays of `arrays()` for numpy.load (.npz). A picture's exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx".
         PNG and WebP have alpha if environment_background was off."""
         name = path_of(path, "path")
@@ -307,7 +308,7 @@ class Film:
             if ending in (".png", ".jpg", ".jpeg", ".webp"):
                 self._native.save_picture(name, stops, tone, None)
             elif ending == ".exr":
-                self._native.save(name)
+                (self._native.save_layers if half else self._native.save)(name)
             elif ending == ".npz":
                 content = io.BytesIO()
                 numpy.savez(content, **self.arrays())
