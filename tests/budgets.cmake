@@ -185,7 +185,9 @@ set(onlyInCi
     FarmSlurmTest
     GpuCheckTest
     LeanKernelsTest
+    PythonAddedTest
     PythonBitsTest
+    PythonManyTest
     PythonUseTest
 )
 # Of the families above.
