@@ -21,7 +21,7 @@ struct CroppedCamera {
     Projection projection;
 };
 
-const test::Named<CroppedCamera> kCameras[] = {
+const test::Named<CroppedCamera> kCroppedCameras[] = {
     {"perspective", {Camera::Kind::Perspective, {}}},
     {"orthographic", {Camera::Kind::Orthographic, {}}},
     {"shifted", {Camera::Kind::Perspective, {Model::Straight, std::nullopt, {0.1, -0.05}, {}}}},
@@ -66,7 +66,7 @@ TEST_P(CropTest, ShowsThatPartOfThePicture)
     settings.seed = 1;
     const Picture picture = makePicture(renderFlat(flat, camera, settings));
     const auto compare = [&](const glm::uvec2& corner) {
-        return zTest(picture, makePicture(cut(whole, corner, kCrop.size)), 1e-3 / static_cast<double>(std::size(kCameras)));
+        return zTest(picture, makePicture(cut(whole, corner, kCrop.size)), 1e-3 / static_cast<double>(std::size(kCroppedCameras)));
     };
     const ZTest test = compare(kCrop.corner);
     EXPECT_TRUE(test.agrees()) << test.worstZ << " of " << test.blockLimit << " at " << test.worstX << ", " << test.worstY;
@@ -76,7 +76,7 @@ TEST_P(CropTest, ShowsThatPartOfThePicture)
     std::printf("  worst block %.2f of %.2f\n", test.worstZ, test.blockLimit);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, CropTest, testing::ValuesIn(kCameras), test::nameOfParameter);
+INSTANTIATE_TEST_SUITE_P(Cameras, CropTest, testing::ValuesIn(kCroppedCameras), test::nameOfParameter);
 
 }  // namespace
 }  // namespace glim

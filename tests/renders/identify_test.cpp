@@ -286,7 +286,7 @@ TEST(IdentifyTest, AdaptivePixelsHaveSharesOfTheirCounts)
 {
     RenderSettings settings = squareSettings(24, 256);
     settings.adaptive = Adaptive::Neighbours;
-    const auto [film, ids] = identify(prepare(nameParts(yardOfAlbedos)()), settings);
+    const auto [film, ids] = identify(prepare(nameParts(yardOfAlbedos())), settings);
     bool uneven = false;
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         uneven = uneven || film.pixels[i].count != film.pixels[0].count;
@@ -300,7 +300,7 @@ TEST(IdentifyTest, AdaptivePixelsHaveSharesOfTheirCounts)
 
 TEST(IdentifyTest, PixelsWithoutSamplesShowNothing)
 {
-    const PreparedScene prepared = prepare(nameParts(yardOfAlbedos)());
+    const PreparedScene prepared = prepare(nameParts(yardOfAlbedos()));
     const FlatCamera camera = flattenCamera(prepared.scene.cameras.front(), 1.0F);
     const RenderSettings settings = squareSettings(16, 8);
     Renderer renderer(testDevice(), prepared.flat, camera, settings);

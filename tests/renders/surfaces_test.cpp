@@ -108,10 +108,10 @@ struct Bent {
     std::array<double, 8> distortion;
 };
 
-const test::Named<Bent> kCameras[] = {{"straight", {Projection::Model::Straight, {}}},
-                                      {"distorted", {Projection::Model::RadialTangential, {-0.1, 0.02, 0.005, -0.01}}},
-                                      {"fisheye", {Projection::Model::Fisheye, {0.03, -0.01}}},
-                                      {"equirectangular", {Projection::Model::Equirectangular, {}}}};
+const test::Named<Bent> kBentCameras[] = {{"straight", {Projection::Model::Straight, {}}},
+                                          {"distorted", {Projection::Model::RadialTangential, {-0.1, 0.02, 0.005, -0.01}}},
+                                          {"fisheye", {Projection::Model::Fisheye, {0.03, -0.01}}},
+                                          {"equirectangular", {Projection::Model::Equirectangular, {}}}};
 
 class SurfacesOfCameraTest : public testing::TestWithParam<test::Named<Bent>> {};
 
@@ -136,7 +136,7 @@ TEST_P(SurfacesOfCameraTest, WhatDoesNotMoveHasNoFlow)
     std::printf("  %.2g pixel at most\n", worst);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, SurfacesOfCameraTest, testing::ValuesIn(kCameras), test::nameOfParameter);
+INSTANTIATE_TEST_SUITE_P(Cameras, SurfacesOfCameraTest, testing::ValuesIn(kBentCameras), test::nameOfParameter);
 
 TEST(SurfacesTest, PlacesAreAtTheirDistanceAlongTheRay)
 {
