@@ -109,6 +109,10 @@ class ElementsTest(PythonCase):
         self.expect_same(lambda lamp: setattr(lamp.nodes["ball"], "matrix", turn),
                          lambda document: (document["nodes"][3].pop("translation"),
                                            document["nodes"][3].update(matrix=turn.T.ravel().tolist())))
+        ball = self.lamp.nodes["ball"]
+        ball.rotation = 0, 0, 3, 3
+        self.assertEqual(ball.rotation, (0, 0, 3, 3))
+        np.testing.assert_allclose(ball.matrix[:3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-15)
         shear = np.eye(4)
         shear[0, 1] = 1
         self.lamp.nodes["floor"].matrix = shear
@@ -205,6 +209,13 @@ class ElementsTest(PythonCase):
         self.assertEqual(self.lamp.render(seed=1).digest, glim.render(LAMP, seed=1, set=self.lamp.edits, **SMALL).digest)
         self.lamp.set("/materials/white/pbrMetallicRoughness/baseColorFactor", None)
         self.assertEqual(list(self.lamp.edits), ["/materials/1/pbrMetallicRoughness/baseColorFactor"])
+
+    def test_names_with_the_signs_of_pointers(self):
+        written_anew(self, lambda document: document["materials"][1].update(name="a/b~c"))
+        kept = glim.load(self.path("changed.gltf"), **SMALL)
+        kept.set("/materials/a~1b~0c/alphaCutoff", .25)
+        self.assertEqual(kept.materials["a/b~c"].alpha_cutoff, .25)
+        kept.render()
 
     def test_what_the_scene_was_loaded_with_stays(self):
         blue = glim.load(LAMP, set={"/materials/1/pbrMetallicRoughness/baseColorFactor": (0, 0, 1, 1)}, **SMALL)

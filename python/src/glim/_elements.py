@@ -118,16 +118,15 @@ class Node(Element):
 
     @property
     def rotation(self) -> Tuple[float, float, float, float]:
-        """A quaternion x, y, z, w."""
+        """A quaternion x, y, z, w, of any length but 0."""
         return self._part("rotation", (0.0, 0.0, 0.0, 1.0))
 
     @rotation.setter
     def rotation(self, value: Sequence[float]) -> None:
         numbers = finite("rotation", value, (4,), "a quaternion x, y, z, w")
-        length = math.hypot(*numbers)
-        if not length > 0:
+        if not any(numbers):
             raise unusable("rotation", value, "a quaternion x, y, z, w other than 0", "degenerate")
-        self._set({"rotation": [number / length for number in numbers]})
+        self._set({"rotation": numbers})
 
     @property
     def scale(self) -> Tuple[float, float, float]:
@@ -143,7 +142,7 @@ class Node(Element):
         columns = self._get("matrix", None)
         if columns is not None:
             return numpy.array(columns, float).reshape(4, 4).T
-        x, y, z, w = self.rotation
+        x, y, z, w = numpy.divide(self.rotation, math.hypot(*self.rotation))
         matrix = numpy.eye(4)
         matrix[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                           [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
