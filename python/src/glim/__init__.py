@@ -433,7 +433,8 @@ class Scene:
         else:
             path = os.path.abspath(path_of(thing, "thing"))
         before = additions_of(self._options.get("add"))
-        while any(other == path or other.startswith(path + "@") for other in before):  # another spelling, by which edits tell one from the other
+        while any(other == path or other.startswith(path + "@") for other in before):
+            # Another spelling, by which edits tell one from the other.
             path = os.path.join(os.path.dirname(path), ".", os.path.basename(path))
         added = Addition(self, path, path + "#")
         added.names("/nodes")  # refuses what is no glTF file

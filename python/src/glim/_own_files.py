@@ -36,7 +36,7 @@ def texels_of(value):
         try:
             array = numpy.from_dlpack(value)
         except (BufferError, RuntimeError, TypeError):
-            raise unusable("environment", value, "an array in the memory of the CPU") from None
+            raise unusable("environment", value, "an array that numpy.from_dlpack takes") from None
     else:
         try:
             array = numpy.asarray(memoryview(value))
