@@ -16,7 +16,7 @@ namespace glim {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint32_t kBandPixels = 1U << 18;
+constexpr std::uint32_t kRowsPixels = 1U << 18;
 constexpr const char* kFlows[] = {"forwardFlow.", "backwardFlow."};
 
 // Objects by what they are in the file: a node's are in the order of the scene.
@@ -315,7 +315,7 @@ std::vector<MetInstances> SurfaceTracer::meetAll(std::span<const std::uint32_t> 
 
 void writeSurfaces(const std::filesystem::path& path, SurfaceTracer& tracer, const Film& film)
 {
-    const std::uint32_t most = std::max(1U, kBandPixels / film.width);
+    const std::uint32_t most = std::max(1U, kRowsPixels / film.width);
     const auto bandAt = [&](std::uint32_t first) { return tracer.rows(film.width, first, std::min(most, film.height - first)); };
     Image band = bandAt(0), picture;
     picture.attributes["software"] = "glim " GLIM_VERSION;
