@@ -149,7 +149,7 @@ class RandomDomainTest(PythonCase):
 
 CARD, WALL = (.5, .4), (3, 2)  # half of their sides, metres
 RED_BEFORE_BLUE = ((.8, .1, .1), (.1, .1, .8))
-LABELS = ((7, 1, 0), (44, 0, 0))  # of the card, of the wall
+LABELS = ((13, 1, 0), (44, 0, 0))  # of the card, of the wall
 FORM = {"width": "64", "height": "48", "near": "0.010000", "far": "10.000000", "focal_x": "50.000000", "focal_y": "55.000000",
         "fov_x": "1.138795", "fov_y": "0.821750", "center_x": "30.300000", "center_y": "24.600000", "submit": "Render"}
 
@@ -247,7 +247,7 @@ class RobotCameraTest(PythonCase):
         np.testing.assert_allclose(numbers_of(content), depth, rtol=1e-6)
         cut = numbers_of(self.ask(drakes_scene(RED_BEFORE_BLUE), "depth", min_depth="2.500000", max_depth="4.000000")[2])
         np.testing.assert_array_equal(cut, np.where(depth == 2, 0, np.inf))
-        status, kind, content = self.ask(drakes_scene((np.array(LABELS) / 255).astype("f4").tolist()), "label")
+        status, kind, content = self.ask(drakes_scene((np.array(LABELS) / 255).round(6).tolist()), "label")
         self.assertEqual((status, kind), (200, "image/png"))
         labels = np.select([(depth == 2)[..., None], (depth == 5)[..., None]], LABELS, 255)
         np.testing.assert_array_equal(pixels_of(content), labels)
