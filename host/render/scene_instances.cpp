@@ -1,6 +1,7 @@
 #include "host/render/scene_instances.hpp"
 
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace glim {
@@ -39,10 +40,14 @@ SceneInstances::SceneInstances(const Scene& scene)
     for (const Sphere& sphere : scene.spheres) {
         add(sphere.node, kNoIndex, 0);
     }
+    std::map<std::string, std::set<std::uint32_t>> nodes;  // of a name
+    for (const SceneInstance& instance : instances_) {
+        nodes[instance.name].insert(instance.node);
+    }
     for (std::size_t i = 0; i < instances_.size(); ++i) {
-        if (placings[instances_[i].node] > 1) {
-            instances_[i].name += "[" + std::to_string(numbers[i]) + "]";
-        }
+        SceneInstance& instance = instances_[i];
+        instance.name += nodes[instance.name].size() > 1 ? "." + std::to_string(instance.node) : "";
+        instance.name += placings[instance.node] > 1 ? "[" + std::to_string(numbers[i]) + "]" : "";
     }
 }
 

@@ -9,7 +9,7 @@
 namespace glim {
 
 struct SceneInstance {
-    std::string name;          // the node's, or node.N by its index; with [K] where the node is placed several times
+    std::string name;  // the node's, or node.N by its index; with .N where nodes share a name, with [K] where a node is placed often
     std::uint32_t node, mesh;  // of the file; kNoIndex where it has none
     std::string kind;          // the mesh's name; that of its first node where it has none, or sphere
 

@@ -37,5 +37,23 @@ TEST(SceneInstancesTest, EachPlacingOfANodeIsOne)
     }
 }
 
+TEST(SceneInstancesTest, NodesOfOneNameHaveDifferentNames)
+{
+    Scene scene;
+    scene.nodeNames = {"chair", "table", "chair"};
+    scene.meshNames = {"mesh"};
+    Mesh mesh;
+    mesh.fileMesh = 0;
+    scene.meshes.change().push_back(mesh);
+    for (const std::uint32_t node : {0U, 1U, 2U, 2U}) {
+        scene.instances.push_back({"", 0, glm::dmat4(1.0), node});
+    }
+    std::vector<std::string> names;
+    for (const SceneInstance& instance : SceneInstances(scene).all()) {
+        names.push_back(instance.name);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"chair.0", "table", "chair.2[0]", "chair.2[1]"}));
+}
+
 }  // namespace
 }  // namespace glim
