@@ -147,7 +147,7 @@ class RandomDomainTest(PythonCase):
             self.assertNotEqual(lines[0]["options"]["set"][pointer], lines[1]["options"]["set"][pointer], pointer)
 
 
-CARD, WALL = (.5, .4), (3, 2)  # half of their sides, metres
+CARD, WALL = (.5, .4), (3, 1.8)  # half of their sides, metres
 RED_BEFORE_BLUE = ((.8, .1, .1), (.1, .1, .8))
 LABELS = ((13, 1, 0), (44, 0, 0))  # of the card, of the wall
 FORM = {"width": "64", "height": "48", "near": "0.010000", "far": "10.000000", "focal_x": "50.000000", "focal_y": "55.000000",
@@ -236,32 +236,38 @@ class RobotCameraTest(PythonCase):
         answer = connection.getresponse()
         return answer.status, answer.headers["Content-Type"], answer.read()
 
+    def picture(self, scene, image_type, expected, **fields):
+        status, kind, content = self.ask(scene, image_type, **fields)
+        self.assertEqual((status, kind), (200, expected), content[:1000])
+        return content
+
     def check_pictures(self, distortion):
         """Colour, depth and labels against what each pixel's ray meets."""
         depth, margin = expected_depth(distortion)
         self.assertGreater(margin.min(), 5e-6)  # ten times what float32 resolves there
         for meters in (2, 5, np.inf):
             self.assertGreater((depth == meters).sum(), 100)
-        status, kind, content = self.ask(drakes_scene(RED_BEFORE_BLUE), "depth")
-        self.assertEqual((status, kind), (200, "image/tiff"))
+        content = self.picture(drakes_scene(RED_BEFORE_BLUE), "depth", "image/tiff")
         np.testing.assert_allclose(numbers_of(content), depth, rtol=1e-6)
-        cut = numbers_of(self.ask(drakes_scene(RED_BEFORE_BLUE), "depth", min_depth="2.500000", max_depth="4.000000")[2])
-        np.testing.assert_array_equal(cut, np.where(depth == 2, 0, np.inf))
-        status, kind, content = self.ask(drakes_scene((np.array(LABELS) / 255).round(6).tolist()), "label")
-        self.assertEqual((status, kind), (200, "image/png"))
+        cut = self.picture(drakes_scene(RED_BEFORE_BLUE), "depth", "image/tiff", min_depth="2.500000", max_depth="4.000000")
+        np.testing.assert_array_equal(numbers_of(cut), np.where(depth == 2, 0, np.inf))
+        content = self.picture(drakes_scene((np.array(LABELS) / 255).round(6).tolist()), "label", "image/png")
         labels = np.select([(depth == 2)[..., None], (depth == 5)[..., None]], LABELS, 255)
         np.testing.assert_array_equal(pixels_of(content), labels)
-        status, kind, content = self.ask(drakes_scene(RED_BEFORE_BLUE), "color")
-        self.assertEqual((status, kind), (200, "image/png"))
-        color = pixels_of(content).astype(int)
+        color = pixels_of(self.picture(drakes_scene(RED_BEFORE_BLUE), "color", "image/png")).astype(int)
         whole = np.zeros(depth.shape, bool)  # pixels that see one thing only
         whole[1:-1, 1:-1] = np.all([depth[1:-1, 1:-1] == depth[1 + y:47 + y, 1 + x:63 + x] for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
         self.assertTrue((color[whole & (depth == 2), 0] > color[whole & (depth == 2), 2] + 20).all())
         self.assertTrue((color[whole & (depth == 5), 2] > color[whole & (depth == 5), 0] + 20).all())
+        return color, depth
 
     def test_draws_color_depth_and_labels(self):
-        self.serve()
-        self.check_pictures((0, 0, 0, 0))
+        with open(self.path("sky.hdr"), "wb") as file:  # white above, black below
+            file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 4\n" + bytes((128, 128, 128, 129)) * 16 + bytes(4) * 16)
+        self.serve("--environment", self.path("sky.hdr"))
+        color, depth = self.check_pictures((0, 0, 0, 0))
+        self.assertTrue(np.isinf(depth[[0, -1]]).all())
+        self.assertGreater(color[0].min(), color[-1].max() + 100)
 
     def test_distorts_all_of_them(self):
         distortion = (-.2, .05, .01, -.02)
@@ -306,12 +312,12 @@ class RobotCameraTest(PythonCase):
                 self.assertTrue(content.decode().startswith(words), content)
                 self.assertRegex(content.decode(), r"\A[^\n]+\n\Z")
                 self.assertNotIn(self.folder, content.decode().replace(self.path("secret.bin"), ""))
-        self.assertEqual(self.ask(scene, "color")[0], 200)
+        self.picture(scene, "color", "image/png")
 
     def test_keeps_to_itself(self):
         self.serve()
         scene = drakes_scene(RED_BEFORE_BLUE)
-        self.assertEqual(self.ask(scene, "color")[0], 200)
+        self.picture(scene, "color", "image/png")
         folder, = os.listdir(self.path("tmp"))
         self.assertEqual(os.stat(self.path(os.path.join("tmp", folder))).st_mode & 0o777, 0o700)
         self.assertEqual(os.listdir(self.path(os.path.join("tmp", folder))), [])
