@@ -49,7 +49,8 @@ TEST(SceneInstancesTest, NodesOfOneNameHaveDifferentNames)
         scene.instances.push_back({"", 0, glm::dmat4(1.0), node});
     }
     std::vector<std::string> names;
-    for (const SceneInstance& instance : SceneInstances(scene).all()) {
+    const SceneInstances instances(scene);
+    for (const SceneInstance& instance : instances.all()) {
         names.push_back(instance.name);
     }
     EXPECT_EQ(names, (std::vector<std::string>{"chair.0", "table", "chair.2[0]", "chair.2[1]"}));
