@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes a data set: pictures of a room in which the camera and two boxes move, boxes and masks as COCO has them, depth, optical flow.
+"""Makes a data set: pictures of a room in which the camera and two boxes move, or of --scene, boxes and masks as COCO has them, depth,
+optical flow.
 
 OUT/annotations.json is about all pictures. OUT/0001.npz goes with OUT/0001.png and has, for the centre of each pixel:
 
@@ -92,12 +93,13 @@ def geometry_of(film):
             **{name: surfaces[name] for name in ("forward_flow", "backward_flow", "instance")}}
 
 
-def make_set(folder, pictures, size, spp, seed):
+def make_set(folder, pictures, size, spp, seed, path=None):
     os.makedirs(folder, exist_ok=True)
-    room = os.path.join(folder, "room.gltf")
-    with open(room, "w", encoding="utf-8") as file:
-        json.dump(moving_room(pictures, seed), file)
-    scene, coco = glim.load(room, size=size, spp=spp), {"images": [], "annotations": []}
+    if path is None:
+        path = os.path.join(folder, "room.gltf")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(moving_room(pictures, seed), file)
+    scene, coco = glim.load(path, size=size, spp=spp), {"images": [], "annotations": []}
     for number in range(1, pictures + 1):
         film = scene.render(at=number / RATE, seed=number, surfaces=True, flow=1 / RATE, objects=True)
         name = "%04d" % number
@@ -115,8 +117,9 @@ def main():
     parser.add_argument("--size", default="320x240")
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--seed", type=int, default=0, help="other ways of the camera and the boxes")
+    parser.add_argument("--scene", metavar="FILE", help="a glTF file with an animation instead of the room, 24 pictures a second")
     options = parser.parse_args()
-    make_set(options.folder, options.pictures, options.size, options.spp, options.seed)
+    make_set(options.folder, options.pictures, options.size, options.spp, options.seed, options.scene)
 
 
 if __name__ == "__main__":
