@@ -16,31 +16,31 @@ SCENE = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "s
 RADII = {"mirror": .45, "glass": .36}  # of the balls, by their nodes
 
 
-def lamp(random):
-    """A lamp from reddish to bluish, of random power."""
+def light(lamp, random):
+    """From reddish to bluish, of any power."""
     warmth = random.uniform(.4, 1)
     color = (1, (1 + warmth) / 2, warmth) if random.random() < .5 else (warmth, (1 + warmth) / 2, 1)
-    return {"/materials/lamp/emissiveFactor": list(color),
-            "/materials/lamp/extensions/KHR_materials_emissive_strength/emissiveStrength": random.uniform(10, 40)}
+    lamp.emission = random.uniform(10, 40) * numpy.array(color)
 
 
-def materials(random):
+def paint(materials, random):
     """Walls of any colour; the balls change from mirrors to rough metal and from clear to coloured glass."""
-    edits = {"/materials/%s/pbrMetallicRoughness/baseColorFactor" % name: [*random.uniform(.1, .9, 3), 1]
-             for name in ("white", "red", "green")}
-    edits["/materials/mirror/pbrMetallicRoughness/baseColorFactor"] = [*random.uniform(.5, 1, 3), 1]
-    edits["/materials/mirror/pbrMetallicRoughness/roughnessFactor"] = random.uniform(0, .5)
-    edits["/materials/glass/pbrMetallicRoughness/baseColorFactor"] = [*random.uniform(.5, 1, 3), 1]
-    edits["/materials/glass/extensions/KHR_materials_ior/ior"] = random.uniform(1.3, 1.8)
-    return edits
+    for name in ("white", "red", "green"):
+        materials[name].base_color = random.uniform(.1, .9, 3)
+    for name in RADII:
+        materials[name].base_color = random.uniform(.5, 1, 3)
+    materials["mirror"].roughness = random.uniform(0, .5)
+    materials["glass"].ior = random.uniform(1.3, 1.8)
 
 
-def poses(random):
+def place(nodes, random):
     """The balls anywhere on the floor, apart from each other."""
     while True:
         places = {name: random.uniform(radius - 1, 1 - radius, 2) for name, radius in RADII.items()}
         if numpy.linalg.norm(places["mirror"] - places["glass"]) > sum(RADII.values()):
-            return {"/nodes/%s/translation" % name: [x, RADII[name], z] for name, (x, z) in places.items()}
+            break
+    for name, (x, z) in places.items():
+        nodes[name].translation = (x, RADII[name], z)
 
 
 def camera(random):
@@ -60,10 +60,12 @@ def main():
     with open(os.path.join(given.folder, "settings.jsonl"), "w", encoding="utf-8") as lines:
         for number in range(1, given.pictures + 1):
             name = "%04d.png" % number
-            options = {"size": given.size, "spp": given.spp, "seed": number, **camera(random),
-                       "set": {**lamp(random), **materials(random), **poses(random)}}
+            light(scene.materials["lamp"], random)
+            paint(scene.materials, random)
+            place(scene.nodes, random)
+            options = {"size": given.size, "spp": given.spp, "seed": number, **camera(random)}
             scene.render(**options).save(os.path.join(given.folder, name))
-            print(json.dumps({"file_name": name, "options": options}), file=lines)
+            print(json.dumps({"file_name": name, "options": {**options, "set": scene.edits}}), file=lines)
 
 
 if __name__ == "__main__":
