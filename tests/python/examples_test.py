@@ -138,12 +138,14 @@ class RandomDomainTest(PythonCase):
         self.assertEqual(self.drawn("again"), first)
         self.assertFalse(set(self.drawn("other", "--seed", "1").values()) & set(first.values()))
         lines = [json.loads(line) for line in first["settings.jsonl"].splitlines()]
-        self.assertEqual([line["file_name"] for line in lines], ["0001.png", "0002.png"])
+        self.assertEqual([(line["file_name"], line["options"]["seed"]) for line in lines], [("0001.png", 1), ("0002.png", 2)])
         again = glim.load(os.path.join(ROOT, "scenes", "cornell_mirror_glass.gltf"))
         for line in lines:
             again.render(**line["options"]).save(self.path("again.png"))
             self.assertEqual(read_bytes(self.path("again.png")), first[line["file_name"]])
         first, second = (line["options"]["set"] for line in lines)
+        self.assertEqual({"/".join(pointer.split("/")[1:3]) for pointer in first},
+                         {"nodes/7", "nodes/8", *("materials/%d" % number for number in range(6))})
         self.assertEqual({pointer for pointer in first if first[pointer] == second[pointer]},
                          {"/materials/3/extensions/KHR_materials_emissive_strength/emissiveStrength"})
 
