@@ -190,6 +190,8 @@ set(onlyInCi
     PythonBitsTest
     PythonMapsTest
     PythonManyTest
+    PythonRandomDomainTest
+    PythonRobotCameraTest
     PythonUseTest
 )
 # Of the families above.

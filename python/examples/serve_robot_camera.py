@@ -20,6 +20,7 @@ import math
 import os
 import secrets
 import signal
+import socket
 import struct
 import sys
 import tempfile
@@ -182,8 +183,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         try:
             self.check()
         except Refused as refused:
-            self.skip_body()
-            self.send_error(refused.code, str(refused))
+            self.refuse_unread(refused)
             return
         try:
             body = self.rfile.read(int(self.headers["Content-Length"]))
@@ -198,7 +198,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.check()
             return super().handle_expect_100()
         except Refused as refused:
-            self.send_error(refused.code, str(refused))
+            self.refuse_unread(refused)
             return False
 
     def check(self):
@@ -211,12 +211,17 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if int(length) > MOST_BYTES:
             raise Refused(413, "Content-Length: cannot use %s, expected at most %d bytes" % (length, MOST_BYTES))
 
-    def skip_body(self):
-        """Without that, a client that still sends may not hear the answer."""
-        length = self.headers.get("Content-Length", "")
-        rest = min(int(length), MOST_BYTES) if length.isdecimal() else 0
-        while rest > 0 and (part := self.rfile.read(min(rest, 1 << 16))):
-            rest -= len(part)
+    def refuse_unread(self, refused):
+        """Answers, and then takes what the client still sends: a connection that is closed with a body unread is reset, and the client may
+        not hear the answer."""
+        self.send_error(refused.code, str(refused))
+        self.connection.shutdown(socket.SHUT_WR)
+        rest = MOST_BYTES
+        try:
+            while rest > 0 and (part := self.rfile.read1(1 << 16)):
+                rest -= len(part)
+        except OSError:
+            pass  # it has sent nothing for `timeout`, or is gone
 
     def send_error(self, code, message=None, explain=None):
         self.send(code, "text/plain; charset=utf-8", ("%s\n" % (message or self.responses[code][0])).encode())
