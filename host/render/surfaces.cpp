@@ -274,7 +274,7 @@ Image SurfaceTracer::rows(std::uint32_t width, std::uint32_t first, std::uint32_
 
 std::vector<MetInstances> SurfaceTracer::meetAll(std::span<const std::uint32_t> pixels)
 {
-    constexpr double kStep = 1e-5;
+    constexpr double kStep = 1e-5;       // of the distance and of coordinates: float32 rounds them by 6e-8
     constexpr int kMostSurfaces = 4096;  // that a ray passes, or rays that rounding holds on one would never end
     std::vector<MetInstances> met(pixels.size());
     std::vector<std::uint32_t> places(pixels.size()), chosen(pixels.begin(), pixels.end());
