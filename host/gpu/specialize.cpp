@@ -1,9 +1,15 @@
 #include "host/gpu/specialize.hpp"
 
+#include "host/digest.hpp"
+#include "host/gpu/cache_file.hpp"
 #include "host/gpu/device.hpp"
+#include "host/text.hpp"
+#include "specializer.h"
 
+#include <spirv-tools/libspirv.h>
 #include <spirv-tools/optimizer.hpp>
 
+#include <cstring>
 #include <mutex>
 
 namespace glim {
@@ -41,6 +47,44 @@ std::vector<std::uint32_t> optimize(const EmbeddedShader& shader, const Speciali
     return specialized;
 }
 
+std::vector<std::uint32_t> make(const EmbeddedShader& shader, const Specialization& specialization, const Arithmetic& arithmetic)
+{
+    return computeBy(arithmetic, optimize(shader, specialization));
+}
+
+// All that the result depends on.
+std::string keyOf(const EmbeddedShader& shader, const Specialization& specialization, const Arithmetic& arithmetic)
+{
+    Digest digest;
+    digest.add(std::as_bytes(shader.words()));
+    std::string key = std::string("SPIR-V of ") + shader.name + ' ' + digest.finish() + " by " GLIM_SPECIALIZER " and " +
+                      spvSoftwareVersionDetailsString() + (arithmetic.exact ? ", exact" : "") +
+                      (arithmetic.declaresRounding ? ", rounding" : "");
+    for (const auto& [id, value] : specialization) {
+        key += format(", %u = %u", id, value);
+    }
+    return key;
+}
+
+// .05 s of CPU a kernel, which the next run need not take.
+std::vector<std::uint32_t> readOrMake(const EmbeddedShader& shader, const Specialization& specialization, const Arithmetic& arithmetic)
+{
+    if (arithmetic.adverse) {  // its seeds would fill the disk
+        return make(shader, specialization, arithmetic);
+    }
+    CacheFile file(keyOf(shader, specialization, arithmetic), ".spirv");
+    const std::string kept = file.read();
+    std::vector<std::uint32_t> words(kept.size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), kept.data(), words.size() * sizeof(std::uint32_t));
+    if (words.empty()) {
+        words = make(shader, specialization, arithmetic);
+        if (file.isKept()) {
+            file.write({reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint32_t)});
+        }
+    }
+    return words;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specialization& specialization, const Arithmetic& arithmetic)
@@ -55,7 +99,7 @@ std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specia
             return entry->second;
         }
     }
-    const std::vector<std::uint32_t> specialized = computeBy(arithmetic, optimize(shader, specialization));  // several kernels at a time
+    const std::vector<std::uint32_t> specialized = readOrMake(shader, specialization, arithmetic);  // several kernels at a time
     const std::lock_guard lock(mutex);
     if (known.size() >= kMaxKept) {
         known.clear();

@@ -68,6 +68,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
     {"vulkan/", {"gpu"}},
     {"commit.h", {"job"}},
     {"version.h", {"job", "render"}},
+    {"specializer.h", {"gpu"}},
     {"kernels.hpp", {"render", "denoise", "gpu"}},
     {"spirv-tools/", {"gpu", "spirv"}},
     {"nlohmann/", {"scene"}},

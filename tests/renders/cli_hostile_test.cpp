@@ -124,7 +124,7 @@ TEST(CommandLineTest, AMissingSceneIsSaidBeforeAMissingDisplay)
 {
     GlimCall call;
     call.arguments = {"preview", "no-such-scene.gltf"};
-    call.environment = {{"DISPLAY", ":4711"}, {"WAYLAND_DISPLAY", "nowhere"}};
+    call.environment.insert({{"DISPLAY", ":4711"}, {"WAYLAND_DISPLAY", "nowhere"}});
     expectRefused(runForMessages(call), 1, MessageId::FileMissing, {.file = "no-such-scene.gltf"});
 }
 

@@ -71,7 +71,7 @@ TEST(CommandLineTest, WithoutADriverTheSentenceSaysWhatToInstall)
     GlimCall call = pixelsOfCornell(folder);
     for (const auto& arguments : {call.arguments, std::vector<std::string>{"devices"}}) {
         call.arguments = arguments;
-        call.environment = {{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}};
+        call.environment.insert({{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}});
         const GlimRun run = runGlim(call);
         EXPECT_EQ(run.exitCode, 3);
         EXPECT_TRUE(contains(run.err, "mesa-vulkan-drivers")) << run.err;
@@ -208,7 +208,7 @@ TEST(CommandLineTest, AnInstalledAndMovedProgramRendersWithoutADisplay)
     call.program = bin / "glim";
     call.folder = home;
     call.arguments[1] = "my scéne.gltf";
-    call.environment = {{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", std::nullopt}};
+    call.environment.insert({{"DISPLAY", std::nullopt}, {"WAYLAND_DISPLAY", std::nullopt}});
     const GlimRun run = runGlim(call);
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_TRUE(fs::exists(home / "x.exr"));
@@ -220,7 +220,7 @@ TEST(CommandLineTest, NoDisplayIsNeededToRender)
 {
     const ScratchFolder folder;
     GlimCall call = pixelsOfCornell(folder);
-    call.environment = {{"DISPLAY", ":4711"}, {"WAYLAND_DISPLAY", "nowhere"}};
+    call.environment.insert({{"DISPLAY", ":4711"}, {"WAYLAND_DISPLAY", "nowhere"}});
     const GlimRun run = runGlim(call);
     EXPECT_EQ(run.exitCode, 0) << run.err;
 }

@@ -44,7 +44,7 @@ GlimCall PreviewTest::call(const std::string& script, const std::vector<std::str
     GlimCall made;
     made.arguments = {"preview", scene, "--script", "script", "--size", size()};
     made.arguments.insert(made.arguments.end(), more.begin(), more.end());
-    made.environment = {{"DISPLAY", screen.name()}, {"GLIM_VALIDATION", "1"}};
+    made.environment.insert({{"DISPLAY", screen.name()}, {"GLIM_VALIDATION", "1"}});
     made.folder = folder.path();
     return made;
 }

@@ -1,5 +1,7 @@
 #include "tests/support/test_device.hpp"
 
+#include "places.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -35,7 +37,7 @@ private:
 
 Device& testDevice()
 {
-    [[maybe_unused]] static const int nothingIsKept = setenv("GLIM_CACHE_DIR", "", 1);
+    [[maybe_unused]] static const int keptApart = setenv("GLIM_CACHE_DIR", GLIM_BUILD_DIR "/cache", 1);  // from the user's
     static const VulkanInstance instance;
     static Device device(instance);
     [[maybe_unused]] static const bool watched = [] {
