@@ -395,6 +395,7 @@ NB_MODULE(_glim, module)
     nb::class_<EditableFile>(module, "EditableFile")
         .def(nb::init<const std::filesystem::path&>(), nb::call_guard<nb::gil_scoped_release>())
         .def("names", &EditableFile::namesAt)
+        .def("image_of", &EditableFile::imageOf)
         .def("value", [](const EditableFile& file, const std::string& pointer, const nb::dict& values) {
             std::vector<Edit> edits;
             for (const auto& [name, value] : values) {

@@ -43,6 +43,7 @@ void addPreview(CommandLine& line)
     command.addPath("SCENE", "FILE", "Scene, .gltf or .glb; loaded again when it changes", options->scene).require();
     addPicture(command, *options);
     addCamera(command, *options);
+    addProjection(command, *options);
     command.beginGroup("Sampling and stopping");
     addSampleCount(command, options->settings, "until the window closes", "0 on");
     addAdaptive(command, options->settings);
@@ -70,7 +71,7 @@ void addPreview(CommandLine& line)
     });
     command.onRun([options] {
         preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->camera, options->device, options->pose,
-                 options->field, options->lens, options->look, options->settings, options->frames, options->script});
+                 options->field, options->projection, options->lens, options->look, options->settings, options->frames, options->script});
         return ExitCode::Done;
     });
 }

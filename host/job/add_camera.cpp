@@ -144,8 +144,6 @@ void addProjection(OptionTable& table, PictureOptions& options)
                                        const std::vector<double> xy = parseNumbers("--shift", value, {2}, "two numbers, as in 0.1,0");
                                        projection.shift = {xy[0], xy[1]};
                                    });
-    table.add("--crop", "X,Y,W,H", "Render only W x H pixels of the picture, from column X and row Y on [all]",
-              [&projection](const OptionValue& value) { projection.crop = parseCrop(value); });
     const Option kind = addChoice(
         table, "--projection", "P", "camera, as the file says, or equirectangular: 360 degrees [camera]", {"camera", "equirectangular"},
         [&projection](std::size_t choice) { projection.model = choice == 0 ? projection.model : Projection::Model::Equirectangular; });
@@ -158,6 +156,12 @@ void addProjection(OptionTable& table, PictureOptions& options)
     shift.excludes(kind);
     kind.excludes(table.option("--fov")).excludes(table.option("--zoom")).excludes(table.option("--lens-radius"));
     fisheye.excludes(table.option("--lens-radius"));
+}
+
+void addCrop(OptionTable& table, PictureOptions& options)
+{
+    table.add("--crop", "X,Y,W,H", "Render only W x H pixels of the picture, from column X and row Y on [all]",
+              [&options](const OptionValue& value) { options.projection.crop = parseCrop(value); });
 }
 
 Camera makeCamera(const Scene& scene, const PictureOptions& options)

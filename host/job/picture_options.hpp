@@ -53,6 +53,7 @@ void addSampler(OptionTable& table, RenderSettings& settings);
 // Each adds a whole group of the help. `more`: what else --camera may be.
 void addCamera(OptionTable& table, PictureOptions& options, const std::string& more = "");
 void addProjection(OptionTable& table, PictureOptions& options);
+void addCrop(OptionTable& table, PictureOptions& options);
 void addLightTransport(OptionTable& table, RenderSettings& settings);
 void addCaustics(OptionTable& table, RenderSettings& settings);
 void addCourseEstimators(OptionTable& table, RenderSettings& settings);

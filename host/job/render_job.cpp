@@ -92,6 +92,7 @@ void addJobOptions(OptionTable& table, RenderJob& options)
               [&options](const OptionValue& value) { options.settings.rows = parseRange("--rows", value, kMaxSide); });
     addCamera(table, options, ", or all");
     addProjection(table, options);
+    addCrop(table, options);
     addSequence(table, options);
     table.beginGroup("Sampling and stopping");
     addSampleCount(table, options.settings, "64; 4 with a --view other than shaded", "0:64");

@@ -1,7 +1,6 @@
 #include "host/preview/pick.hpp"
 
 #include "host/measure/float_range.hpp"
-#include "host/render/ray_tracer.hpp"
 #include "shaders/shared/limits.h"
 
 #include <cstdio>
@@ -11,21 +10,19 @@ namespace {
 
 double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 3.0; }
 
-// The ray through the centre of a pixel of a picture of this size, and through the middle of the lens.
-PathRay rayThrough(const FlatCamera& camera, const glm::uvec2& pixel, const glm::uvec2& size)
-{
-    const glm::vec2 film = 2.0F * (glm::vec2(pixel) + 0.5F) / glm::vec2(size) - 1.0F;
-    const glm::vec3 across = film.x * camera.right - film.y * camera.up;
-    return camera.kind == kOrthographic ? PathRay{camera.position + across, kNoPrimitive, camera.forward}
-                                        : PathRay{camera.position, kNoPrimitive, glm::normalize(camera.forward + across)};
-}
-
 }  // namespace
 
-std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size)
+std::optional<Pick> Picker::pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size)
 {
-    const PathRay ray = rayThrough(refiner.camera(), pixel, size);
-    const PathHit hit = RayTracer(refiner.renderer().resources()).trace(std::span(&ray, 1)).front();
+    const RenderResources& resources = refiner.renderer().resources();
+    RenderSettings settings = refiner.renderer().settings();
+    settings.width = size.x;
+    settings.height = size.y;
+    CameraRays rays(resources.device, *resources.shared, prepared.flat, refiner.camera(), settings, kernels_, RayPlace::Centers);
+    kernels_ = rays.kernels();
+    const std::uint32_t chosen = pixel.y * size.x + pixel.x;
+    const PathHit hit = rays.trace(std::span(&chosen, 1), 0, 1).front();
+    const PathRay ray = rays.rays(1).front();
     if (hit.primitiveRef == kNoPrimitiveRef) {
         return std::nullopt;
     }

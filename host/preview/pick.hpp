@@ -3,8 +3,10 @@
 
 #include "host/preview/refiner.hpp"
 #include "host/render/aov.hpp"
+#include "host/render/camera_rays.hpp"
 #include "host/render/describe_primitive.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,8 +18,16 @@ struct Pick {
     PrimitiveDescription primitive;
 };
 
-// The surface behind the centre of a pixel of a window of this size.
-std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size);
+// Keeps the kernels of one click for the next.
+class Picker {
+public:
+    // The surface behind the centre of a pixel of a window of this size, seen by the refiner's camera.
+    std::optional<Pick> pick(Refiner& refiner, const PreparedScene& prepared, const glm::uvec2& pixel, const glm::uvec2& size);
+
+private:
+    std::shared_ptr<const CameraRayKernels> kernels_;
+};
+
 // The surface and its place: "nothing" if there is none.
 std::string describeSurface(const std::optional<Pick>& found);
 // For example "; 64 samples, mean (1, 1, 1) W/(sr m^2), standard error (.1, .1, .1)".

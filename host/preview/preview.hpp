@@ -21,6 +21,7 @@ struct PreviewOptions {
     std::optional<std::string> camera, device;
     std::optional<Pose> pose;
     FieldOfView field;
+    Projection projection;  // without the picture's size
     Lens lens;
     LookOptions look;
     RenderSettings settings;

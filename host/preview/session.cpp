@@ -126,13 +126,15 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared.scene, options_.camera);
         sayIfCameraIsNumber(prepared.scene, options_.camera);
-        applyField(chosen, options_.field);  // refuses an angle for an orthographic camera
+        applyField(chosen, options_.field);                                        // refuses an angle for an orthographic camera,
+        const Camera seen = applyProjection(chosen, options_.projection, size());  // and a K
         if (options_.pose) {
             placeCamera(chosen, *options_.pose, prepared.scene.origin);  // refuses a pose without direction
         }
-        viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared.scene.cameras.data()), options_.pose, options_.field);
+        viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared.scene.cameras.data()), options_.pose, options_.field,
+                           options_.projection);
         if (!options_.size) {
-            window_.setSize(defaultSize(chosen));
+            window_.setSize(defaultSize(seen));
         }
     }
     warnIfNoLights(prepared);
@@ -186,7 +188,7 @@ void Session::followCamera()
 // Begins a new picture with the present camera.
 void Session::show()
 {
-    pictures_.show(viewpoint_->camera(), size());
+    pictures_.show(viewpoint_->camera(size()), size());
     begin();
 }
 
@@ -393,7 +395,7 @@ void Session::undo()
 
 void Session::chooseLayer(Aov layer)
 {
-    if (pictures_.choose(layer, viewpoint_->camera(), size(), viewpoint_->hasMoved())) {
+    if (pictures_.choose(layer, viewpoint_->camera(size()), size(), viewpoint_->hasMoved())) {
         begin();
     }
     meter_.renew();
@@ -501,7 +503,7 @@ void Session::clickAt(const glm::dvec2& position)
         return;
     }
     const glm::uvec2 pixel(glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size() - 1U)));
-    const std::optional<Pick> found = pick(pictures_.shown(), pictures_.scene(), pixel, size());
+    const std::optional<Pick> found = picker_.pick(pictures_.shown(), pictures_.scene(), pixel, size());
     const std::string there = describeSurface(found);
     surface_.reset();
     if (found) {
@@ -514,9 +516,10 @@ void Session::clickAt(const glm::dvec2& position)
 
 void Session::printCamera()
 {
-    const std::string options =
-        "--camera " + std::to_string(viewpoint_->index()) + cameraOptions(viewpoint_->moved(), options_.field, options_.lens) + " --size " +
-        std::to_string(display_.width()) + "x" + std::to_string(display_.height()) + editOptions(joinEdits(options_.load.edits, edits_));
+    const std::string options = "--camera " + std::to_string(viewpoint_->index()) +
+                                cameraOptions(viewpoint_->moved(), options_.field, options_.lens, options_.projection) + " --size " +
+                                std::to_string(display_.width()) + "x" + std::to_string(display_.height()) +
+                                editOptions(joinEdits(options_.load.edits, edits_));
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
 }
@@ -526,7 +529,7 @@ void Session::writePictures()
     Film film = pictures_.shown().renderer().film();
     film.sceneFile = options_.scene.string();
     film.showsBackground = options_.load.environmentBackground;
-    film.identity.settings += describeCamera(viewpoint_->moved(), options_.field, options_.lens);
+    film.identity.settings += describeCamera(viewpoint_->moved(), options_.field, options_.lens, options_.projection);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }

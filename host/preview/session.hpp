@@ -6,6 +6,7 @@
 #include "host/preview/idle_denoiser.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
+#include "host/preview/pick.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
 #include "host/preview/scene_loader.hpp"
@@ -92,7 +93,8 @@ private:
     Pacer pacer_;
     PanelMessages messages_;
 
-    std::vector<Edit> edits_;               // of the user, after those of the options
+    std::vector<Edit> edits_;  // of the user, after those of the options
+    Picker picker_;
     std::optional<ChosenSurface> surface_;  // that was clicked
 
     std::deque<Event> inbox_;      // events that are taken but not handled yet

@@ -11,11 +11,14 @@
 namespace glim {
 namespace {
 
-// Half the height of the picture at the point that the camera looks at, in metres.
-double computeHalfHeight(const Camera& camera, const Pose& pose)
+// Half the height of the picture at the point that the camera looks at, in metres. `height`: in pixels.
+double computeHalfHeight(const Camera& camera, const Projection& projection, const Pose& pose, double height)
 {
     if (camera.kind == Camera::Kind::Orthographic) {
         return static_cast<double>(camera.halfHeight);  // includes the zoom
+    }
+    if (projection.intrinsics) {
+        return 0.5 * height / projection.intrinsics->focal.y * glm::length(pose.at - pose.from);
     }
     return std::tan(0.5 * static_cast<double>(camera.yfov)) * glm::length(pose.at - pose.from);
 }
@@ -35,7 +38,18 @@ void Viewpoint::enter(const Scene& scene)
     firstIndex_ = std::min(firstIndex_, cameras_.size() - 1);
 }
 
-Camera Viewpoint::camera() const { return pose_ ? placeCamera(cameras_[index_], *pose_, origin_) : cameras_[index_]; }
+Camera Viewpoint::camera(const glm::uvec2& size) const
+{
+    const Camera camera = placed();
+    Projection projection = projection_;
+    if (camera.kind == Camera::Kind::Orthographic && projection.model != Projection::Model::Equirectangular) {
+        projection = Projection();
+        projection.shift = projection_.shift;
+    }
+    return applyProjection(camera, projection, size);
+}
+
+Camera Viewpoint::placed() const { return pose_ ? placeCamera(cameras_[index_], *pose_, origin_) : cameras_[index_]; }
 
 Pose Viewpoint::pose() const
 {
@@ -64,10 +78,10 @@ void Viewpoint::move(const Pose& pose)
 
 void Viewpoint::follow(const Gesture& gesture, double height)
 {
-    const Camera seen = camera();
+    const Camera seen = placed();
     switch (gesture.kind) {
     case Gesture::Kind::Orbit: move(orbit(pose(), gesture.motion, height)); break;
-    case Gesture::Kind::Pan: move(pan(pose(), gesture.motion, 2.0 * computeHalfHeight(seen, pose()) / height)); break;
+    case Gesture::Kind::Pan: move(pan(pose(), gesture.motion, 2.0 * computeHalfHeight(seen, projection_, pose(), height) / height)); break;
     case Gesture::Kind::Dolly: move(dolly(pose(), gesture.notches, seen.kind)); break;
     case Gesture::Kind::Click: break;
     }
@@ -100,7 +114,7 @@ void Viewpoint::fly(Time now)
 
 std::string Viewpoint::describeAsGltf() const
 {
-    const Camera seen = camera();
+    const Camera seen = placed();
     const glm::dvec3 from = glm::dvec3(seen.position) + origin_;
     const glm::dquat rotation = glm::quat_cast(glm::dmat3(glm::dvec3(seen.right), glm::dvec3(seen.up), -glm::dvec3(seen.forward)));
     Json camera;

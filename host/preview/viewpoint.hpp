@@ -15,18 +15,20 @@ class Viewpoint {
 public:
     using Time = Clock::time_point;
 
-    // Starts with the file's camera `index`, or with the camera placed by `pose`. All cameras have `field`, but for the angle of
-    // orthographic ones.
-    Viewpoint(std::size_t index, const std::optional<Pose>& pose, const FieldOfView& field = {})
+    // Starts with the file's camera `index`, or with the camera placed by `pose`. All cameras have `field` and `projection`, but for what
+    // orthographic ones cannot have: an angle, a K, a distortion.
+    Viewpoint(std::size_t index, const std::optional<Pose>& pose, const FieldOfView& field = {}, const Projection& projection = {})
         : index_(index),
           firstIndex_(index),
           pose_(pose),
-          field_(field)
+          field_(field),
+          projection_(projection)
     {}
 
     // Takes the cameras of `scene`, also when it has been loaded again. A moved camera stays where it is.
     void enter(const Scene& scene);
-    Camera camera() const;
+    // Of a picture of this size, in pixels.
+    Camera camera(const glm::uvec2& size) const;
     const std::vector<Camera>& cameras() const { return cameras_; }
 
     // Returns to the file's camera `index`. Returns false if there is none.
@@ -55,12 +57,15 @@ public:
     std::string describeAsGltf() const;
 
 private:
+    Camera placed() const;
+
     std::vector<Camera> cameras_;
     glm::dvec3 origin_{0.0};
     BoundingSphere bounds_;
     std::size_t index_, firstIndex_;
     std::optional<Pose> pose_;  // absent: the file's camera was not moved
     FieldOfView field_;
+    Projection projection_;
     bool moved_ = false;
     std::set<char> held_;
     Time flown_;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ public:
 
     // The names of the elements of a list, as of /materials; empty ones of those without a name.
     std::vector<std::string> namesAt(const std::string& list) const;
+    // Which image is drawn by a texture of the file.
+    std::optional<std::size_t> imageOf(std::size_t texture) const;
     // The element at a pointer after these edits, as JSON. Of a node with a matrix that can be split it has the parts as well. Throws
     // InputError if an edit is refused.
     std::string valueAt(const std::string& pointer, const std::vector<Edit>& edits) const;

@@ -302,7 +302,9 @@ public:
     // Leaves the part as it was if it throws.
     void edit(const std::vector<Edit>& edits)
     {
-        editGltf(file_, edits);
+        for (const std::size_t image : editGltf(file_, edits)) {
+            decoded_.forgetImage(image);
+        }
         options_.edits = edits;
         framed_.reset();
         posed_ = false;

@@ -156,10 +156,10 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
     Viewpoint viewpoint(0, std::nullopt);
     viewpoint.enter(twoCameras());
     EXPECT_FALSE(viewpoint.moved());
-    EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 10));
+    EXPECT_EQ(viewpoint.camera({4, 3}).position, glm::vec3(1, 0, 10));
     expectNear(viewpoint.pose().at, {1, 0, 0});
     viewpoint.move(fly(viewpoint.pose(), {0, 0, 1}));
-    EXPECT_EQ(viewpoint.camera().position, glm::vec3(1, 0, 9));
+    EXPECT_EQ(viewpoint.camera({4, 3}).position, glm::vec3(1, 0, 9));
     EXPECT_EQ(cameraOptions(viewpoint.moved(), {}, {}), " --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
     EXPECT_FALSE(viewpoint.choose(2));
     EXPECT_TRUE(viewpoint.choose(1));
@@ -214,6 +214,31 @@ TEST(ViewpointTest, FollowsTheMouse)
     expectNear(viewpoint.pose().at, before.at + glm::dvec3(0, 2.0 * std::tan(0.35) * 10.0, 0), 1e-5);  // by the picture's height
 }
 
+// A K is one of pixels: a larger window shows more.
+TEST(ViewpointTest, HasAProjection)
+{
+    Scene scene = twoCameras();
+    scene.cameras[1].kind = Camera::Kind::Orthographic;
+    const Projection lens{Projection::Model::RadialTangential, Intrinsics{{50, 25}, {40, 30}}, {0.1, 0}, {-0.1}};
+    Viewpoint viewpoint(0, std::nullopt, {}, lens);
+    viewpoint.enter(scene);
+    Projection expected = lens;
+    expected.intrinsics->size = {80, 60};
+    EXPECT_EQ(viewpoint.camera({80, 60}).projection, expected);
+    expected.intrinsics->size = {160, 120};
+    EXPECT_EQ(viewpoint.camera({160, 120}).projection, expected);
+    const Pose before = viewpoint.pose();
+    viewpoint.follow({.kind = Gesture::Kind::Pan, .motion = {0.0, 100.0}}, 100.0);
+    expectNear(viewpoint.pose().at, before.at + glm::dvec3(0, 4.0 * 10.0, 0), 1e-5);  // 100 pixels are 100 / 25 of the distance
+    viewpoint.choose(1);
+    Projection shifted;
+    shifted.shift = {0.1, 0};
+    EXPECT_EQ(viewpoint.camera({80, 60}).projection, shifted) << "an orthographic camera";
+    Viewpoint around(1, std::nullopt, {}, {Projection::Model::Equirectangular});
+    around.enter(scene);
+    EXPECT_EQ(around.camera({80, 40}).projection.model, Projection::Model::Equirectangular);
+}
+
 TEST(ViewOptionsTest, AreExact)
 {
     EXPECT_EQ(cameraOptions(std::nullopt, {}, {}), "");
@@ -237,10 +262,10 @@ TEST(ViewpointTest, StaysInAnotherScene)
     Scene other = twoCameras();
     other.origin = {100, 0, 0};
     viewpoint.enter(other);
-    EXPECT_EQ(viewpoint.camera().position, glm::vec3(-99, 1, -10));
+    EXPECT_EQ(viewpoint.camera({4, 3}).position, glm::vec3(-99, 1, -10));
     other.cameras.resize(1);
     viewpoint.enter(other);
-    EXPECT_EQ(viewpoint.camera().position, glm::vec3(-99, 1, -10));
+    EXPECT_EQ(viewpoint.camera({4, 3}).position, glm::vec3(-99, 1, -10));
 }
 
 }  // namespace

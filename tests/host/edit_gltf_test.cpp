@@ -1,5 +1,6 @@
 // Changes of a file by pointers: the scene is that of a file that has the values.
 #include "host/flatten/flatten_scene.hpp"
+#include "host/scene/edit.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/render_scene.hpp"
@@ -120,6 +121,7 @@ TEST(EditGltf, RefusesWithThePointerOrThePlace)
                   {.place = "materials[0].alphaMode", .value = "\"GLASS\""});
     expectRefused({"/materials/0/doubleSided", "3"}, MessageId::WrongType, {.place = "materials[0].doubleSided", .value = "3"});
     expectRefused({"/materials/0/alphaCutoff", "1,2"}, MessageId::Malformed, {.place = "/materials/0/alphaCutoff", .value = "1,2"});
+    expectRefused({"/images/0/uri", "\"a.png\""}, MessageId::UnknownName, {.place = "/images/0/uri", .value = "/images"});
     expectRefused({"/nodes/0/weights/0", "1"}, MessageId::UnknownName, {.place = "/nodes/0/weights/0", .value = "/nodes/0/weights"});
 }
 
@@ -139,6 +141,50 @@ TEST(EditGltf, AWrongValueIsRefusedBeforeTheNextEdit)
     }
     test::expectRefused(builder(), MessageId::WrongType, {.place = "nodes[0].weights", .value = "5"},
                         edited({{"/nodes/0/weights", "5"}, {"/nodes/0/weights/0", "1"}}));
+}
+
+// What Python shows of a file.
+TEST(EditableFileTest, KnowsNamesAndValues)
+{
+    const EditableFile file(writeTemporary("editable.gltf", builder().toGltf()));
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(file.namesAt("/materials"), (Names{"paint", "other"}));
+    EXPECT_EQ(file.namesAt("/nodes"), (Names{"card", "card", "eye", ""}));
+    EXPECT_EQ(file.namesAt("/skins"), Names());
+    const auto valueAt = [&file](const std::string& pointer, const std::vector<Edit>& edits) {
+        return json::parse(file.valueAt(pointer, edits));
+    };
+    EXPECT_EQ(valueAt("/materials/0", {}), (json{{"name", "paint"}}));
+    EXPECT_EQ(valueAt("/materials/0", {{"/materials/paint/alphaCutoff", "0.25"}}), (json{{"name", "paint"}, {"alphaCutoff", 0.25}}));
+    EXPECT_EQ(valueAt("/materials/0", {}), (json{{"name", "paint"}})) << "edits are of one call";
+    const json card = valueAt("/nodes/1", {});
+    EXPECT_EQ(card["translation"], (json{1.0, 2.0, 3.0}));
+    EXPECT_EQ(card["scale"], (json{2.0, 2.0, 2.0}));
+    EXPECT_TRUE(card.contains("matrix"));
+    const json sheared = valueAt("/nodes/1", {{"/nodes/1/matrix", "[1,0,0,0, 1,1,0,0, 0,0,1,0, 0,0,0,1]"}});
+    EXPECT_FALSE(sheared.contains("scale"));
+    expectRefusal<InputError>(
+        [&] {
+            valueAt("/materials/0", {{"/materials/0/alphaCutoff", "-2"}});
+        },
+        MessageId::OutOfRange, {.place = "materials[0].alphaCutoff"});
+}
+
+// The image of the extension, not the one beside it for other readers; uris are not kept, and need none.
+TEST(EditableFileTest, KnowsTheImagesOfTextures)
+{
+    GltfBuilder textured = builder();
+    for (const char* const name : {"a.png", "b.webp"}) {
+        textured.append("images", {{"uri", name}});
+    }
+    textured.append("textures", {{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}});
+    textured.append("textures", {{"source", 0}});
+    textured.append("textures", json::object());
+    const EditableFile file(writeTemporary("editable.gltf", textured.toGltf()));
+    EXPECT_EQ(file.imageOf(0), 1U);
+    EXPECT_EQ(file.imageOf(1), 0U);
+    EXPECT_EQ(file.imageOf(2), std::nullopt);
+    EXPECT_EQ(json::parse(file.valueAt("/images/1", {{"/images/1/uri", "\"c.png\""}})), (json{{"uri", "c.png"}}));
 }
 
 TEST(EditGltf, APointerIsEscaped)

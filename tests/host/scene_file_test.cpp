@@ -111,6 +111,61 @@ TEST_F(SceneFileTest, ImagesOfAnotherFileAreItsOwn)
     EXPECT_NE(prepared.flat.images->texels, before);
 }
 
+// An edit names another file, or has it in itself; what it leaves alone is not decoded again.
+TEST_F(SceneFileTest, AnEditReplacesAnImage)
+{
+    const Bytes texels = encodePng(2, 1, {1, 2, 3, 4, 5, 6});
+    writeText(folder_ / "other.png", std::string(texels.begin(), texels.end()));
+    const std::string embedded =  // grey 9
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGPgBAAACwAKwyvukgAAAABJRU5ErkJggg==";
+    SceneFile file(folder_ / "scene.gltf");
+    const Scene before = file.sceneAt(std::nullopt);
+    file.edit({{"/images/0/uri", "\"other.png\""}});
+    const Scene other = file.sceneAt(std::nullopt);
+    EXPECT_EQ(other.images.at(0).pixels->rgba8, (std::vector<std::uint8_t>{1, 2, 3, 255, 4, 5, 6, 255}));
+    EXPECT_EQ(other.files.back(), folder_ / "other.png");
+    file.edit({{"/images/0/uri", "\"other.png\""}, {"/materials/0/alphaCutoff", "0.25"}});
+    EXPECT_EQ(file.sceneAt(std::nullopt).images.at(0).pixels, other.images.at(0).pixels);
+    file.edit({{"/images/0/uri", json(embedded).dump()}});
+    EXPECT_EQ(file.sceneAt(1.0).images.at(0).pixels->rgba8, (std::vector<std::uint8_t>{9, 9, 9, 255}));
+    file.edit({});
+    EXPECT_EQ(file.sceneAt(std::nullopt).images.at(0).pixels->rgba8, before.images.at(0).pixels->rgba8);
+}
+
+TEST_F(SceneFileTest, AnEditReplacesAnImageOfABuffer)
+{
+    GltfBuilder builder = oneTriangle();
+    const Bytes texels = encodePng(1, 1, {9, 8, 7});
+    builder.append("images", {{"bufferView", builder.addAov(texels)}, {"mimeType", "image/png"}});
+    builder.append("textures", {{"source", 0}});
+    builder.append("materials", {{"emissiveTexture", {{"index", 0}}}});
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    const std::size_t uvs = builder.addAccessor(toBytes<float>({0, 0, 1, 0, 0, 1}), kFloat, "VEC2", 3);
+    builder.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uvs;
+    writeText(folder_ / "buffer.gltf", builder.toGltf());
+    SceneFile file(folder_ / "buffer.gltf");
+    const auto red = [&file] { return file.sceneAt(std::nullopt).images.at(0).pixels->rgba8.at(0); };
+    EXPECT_EQ(red(), 9);
+    file.edit({{"/images/0/uri", "\"image.png\""}});
+    EXPECT_EQ(red(), 200);
+    file.edit({});
+    EXPECT_EQ(red(), 9);
+}
+
+TEST_F(SceneFileTest, AConfinedEditStaysInTheFolder)
+{
+    LoadOptions options;
+    options.confined = true;
+    SceneFile file(folder_ / "scene.gltf", options);
+    file.sceneAt(std::nullopt);
+    const std::vector<Edit> outside{{"/images/0/uri", "\"../image.png\""}};
+    expectRefusal<InputError>([&] { file.edit(outside); }, MessageId::OutsideFolder, {.place = "images[0]", .value = "../image.png"});
+    EXPECT_EQ(file.sceneAt(std::nullopt).images.at(0).pixels->rgba8.at(0), 200);
+    SceneFile free(folder_ / "scene.gltf");
+    free.edit(outside);
+    expectRefusal<InputError>([&] { free.sceneAt(std::nullopt); }, MessageId::FileMissing);
+}
+
 // Four fans of eight triangles, a lamp and a pane of rough glass, below a light.
 GltfBuilder fans()
 {

@@ -1,4 +1,5 @@
 // What a user does in the window, and what it answers.
+#include "host/image/exr.hpp"
 #include "places.h"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -41,6 +43,32 @@ TEST_F(PreviewTest, ViewsExposureAndClicks)
     EXPECT_EQ(picture(9), shaded);
     EXPECT_NE(session.out.find("pixel (48, 36) of 96x72: instance "), std::string::npos) << session.out;
     EXPECT_NE(session.out.find("; 4 samples, mean ("), std::string::npos) << session.out;
+}
+
+// Films of every camera are those of a render, and a click finds what the pixel's centre shows.
+TEST_F(PreviewTest, EveryProjection)
+{
+    for (const char* const options : {"--projection equirectangular", "--fisheye 0.1,0,0,0", "--shift 0.1,-0.2",
+                                      "--intrinsics 90,80,50,30 --distortion -0.2,0.05,0.01,0"}) {
+        const std::string inside = std::string("--look-from 0,1,0 --look-at 0,1,-1 --look-up 0,1,0 ") + options;
+        std::istringstream words(inside + " --spp 1");
+        const std::vector<std::string> more{std::istream_iterator<std::string>(words), {}};
+        const GlimRun session = run("0 samples 1\n0 click 20,50\n0 key P\n0 key C\n0 close\n", more);
+        const Film expected = render(inside + " --spp 1 --surfaces " + (folder / "s.exr").string());
+        EXPECT_TRUE(sameBits(film(1), expected)) << options;
+        EXPECT_NE(session.out.find("--camera 0 " + inside), std::string::npos) << session.out;
+        const Image surfaces = readExr(folder / "s.exr");
+        const std::size_t pixel = std::size_t{50} * width + 20, at = session.out.find(", at (");
+        ASSERT_NE(at, std::string::npos) << session.out;
+        std::array<double, 4> found{};
+        ASSERT_EQ(std::sscanf(session.out.c_str() + at, ", at (%lf, %lf, %lf), %lf m", &found[0], &found[1], &found[2], &found[3]), 4);
+        const char* const kChannels[] = {"position.X", "position.Y", "position.Z", "distance.Y"};
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_NEAR(found[k], static_cast<double>(surfaces.channels.at(kChannels[k])[pixel]), 2e-5)
+                << options;  // six digits are printed
+        }
+        removePictures();
+    }
 }
 
 // Through GLFW and X: real keys, drags and turns of the wheel do what the scripts' do.

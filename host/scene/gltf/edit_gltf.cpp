@@ -18,7 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array kChangeable{"nodes[].", "materials[].", "cameras[].", "meshes[].weights", "extensions.KHR_lights_punctual.lights[]."};
+constexpr std::array kChangeable{
+    "nodes[].", "materials[].", "cameras[].", "meshes[].weights", "images[].uri", "extensions.KHR_lights_punctual.lights[].",
+};
 
 class Editor {
 public:
@@ -45,6 +47,14 @@ public:
         if (value.is_discarded()) {
             refuse(MessageId::Malformed, {part::quoted(edit_.value), " is not JSON; expected ",
                                           part::expected("a number, a list of numbers, true, false or a word in quotes")});
+        }
+        if (schemaPath == "images[].uri") {
+            if (value == "") {
+                refuse(MessageId::Malformed, {part::quoted(""), " is no uri; expected ", part::expected("the name of a file, or data:")});
+            }
+            for (const char* member : {"bufferView", "mimeType"}) {  // of what is no longer drawn
+                at->erase(member);
+            }
         }
         (at->is_array() ? (*at)[std::stoul(steps.back())] : (*at)[steps.back()]) = std::move(value);
     }
@@ -97,7 +107,7 @@ private:
         if (!at.is_object() || isIndex(steps[i + 1])) {
             refuse(MessageId::UnknownName,
                    {"the file has no ", part::value(placeOf(steps, i + 1)), "; expected ",
-                    part::expected("a pointer into nodes, materials, cameras, meshes or extensions/KHR_lights_punctual/lights")});
+                    part::expected("a pointer into nodes, materials, cameras, meshes, images or extensions/KHR_lights_punctual/lights")});
         }
         return at[step] = json::object();
     }
@@ -137,14 +147,16 @@ private:
     {
         const bool allWeights = schemaPath == "nodes[].weights" || schemaPath == "meshes[].weights";
         const SchemaRule* rule = findRule(allWeights ? schemaPath + "[]" : schemaPath);
-        const bool hasValue = rule != nullptr && (rule->kind == JsonKind::Number || rule->kind == JsonKind::Numbers ||
-                                                  rule->kind == JsonKind::Bool || rule->kind == JsonKind::OneOf);
+        const bool hasValue =
+            rule != nullptr && (rule->kind == JsonKind::Number || rule->kind == JsonKind::Numbers || rule->kind == JsonKind::Bool ||
+                                rule->kind == JsonKind::OneOf || schemaPath == "images[].uri");
         const bool isChangeable = std::ranges::any_of(kChangeable, [&](const char* start) { return schemaPath.starts_with(start); });
         if (steps.empty() || !hasValue || !isChangeable || steps.back() == "type") {
             refuse(MessageId::Unsupported,
                    {"is not a value that glim can change; expected ",
-                    part::expected("a number, boolean or word of a node, material, camera or light, or the weights of a mesh, as in "
-                                   "/materials/0/pbrMetallicRoughness/roughnessFactor")});
+                    part::expected(
+                        "a number, boolean or word of a node, material, camera or light, the weights of a mesh, or the uri of an image, "
+                        "as in /materials/0/pbrMetallicRoughness/roughnessFactor")});
         }
     }
 
@@ -187,7 +199,7 @@ json readDocument(const std::string& path)
     return document;
 }
 
-// `to` with the parts of `document` that edits may change, but for the weights of meshes.
+// `to` with the parts of `document` that edits may change, but for the weights of meshes and the images.
 json copyParts(const json& document, json to)
 {
     for (const char* part : {"nodes", "materials", "cameras", "extensions"}) {
@@ -198,18 +210,37 @@ json copyParts(const json& document, json to)
     return to;
 }
 
+std::string uriOf(const json& document, std::size_t image) { return document["images"][image].value("uri", ""); }
+
+// The file's images, but for those to which edits give another uri.
+std::vector<EncodedImage> listEdited(const GltfFile& file, const json& document)
+{
+    std::vector<EncodedImage> images = file.ownImages;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        if (const std::string uri = uriOf(document, i); uri != uriOf(*file.original, i)) {
+            if (file.confined && !isDataUri(uri)) {
+                refuseOutside(file.path, label("images", i, images[i].name), uri);
+            }
+            images[i] = {images[i].name, uri, std::nullopt};
+        }
+    }
+    return images;
+}
+
 }  // namespace
 
-void editGltf(GltfFile& file, std::span<const Edit> edits)
+std::vector<std::size_t> editGltf(GltfFile& file, std::span<const Edit> edits)
 {
     if (edits.empty() && !file.original) {
-        return;
+        return {};
     }
     if (!file.original) {
         file.original = std::make_shared<const json>(readDocument(file.path));
+        file.ownImages = file.images;
     }
     Warnings warnings;
     const json document = editDocument(file.path, *file.original, edits, warnings);
+    std::vector<EncodedImage> images = listEdited(file, document);
     tinygltf::Model changed = parseModel(file.path, copyParts(document, {{"asset", document["asset"]}}));
     file.editWarnings = std::move(warnings);
     file.model.nodes = std::move(changed.nodes);
@@ -231,6 +262,14 @@ void editGltf(GltfFile& file, std::span<const Edit> edits)
         }
         file.document = std::make_shared<const json>(std::move(whole));
     }
+    file.images.swap(images);
+    std::vector<std::size_t> replaced;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        if (images[i].uri != file.images[i].uri) {
+            replaced.push_back(i);
+        }
+    }
+    return replaced;
 }
 
 struct EditableFile::Contents {
@@ -258,6 +297,11 @@ std::vector<std::string> EditableFile::namesAt(const std::string& list) const
         names.push_back(element.value("name", ""));
     }
     return names;
+}
+
+std::optional<std::size_t> EditableFile::imageOf(std::size_t texture) const
+{
+    return glim::imageOf(contents_->document.at("textures").at(texture));
 }
 
 std::string EditableFile::valueAt(const std::string& pointer, const std::vector<Edit>& edits) const

@@ -71,21 +71,25 @@ struct GltfFile {
     std::size_t ownBuffers = 0;                      // how many are the file's
     std::uint64_t ownBytes = 0;                      // in them and in the JSON
     std::vector<EncodedImage> images;
+    std::vector<EncodedImage> ownImages;  // of a file with edits: without them
     std::vector<GltfTexture> textures;
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
+    bool confined = false;               // refuses files outside of its folder
     std::optional<std::size_t> variant;  // of KHR_materials_variants, that is to be drawn
     Warnings warnings;                   // of what was mended in its JSON
     Warnings editWarnings;               // and in edits
 };
 
-// `confined`: refuses files that the document names outside of its folder.
+// `confined`: refuses files that the document or an edit names outside of its folder.
 GltfFile readGltfFile(const std::filesystem::path& file, bool confined);
 
 // The bytes of a uri: data in it, or at most the first `most` of a file relative to the glTF file. `place` names what has the uri.
 std::vector<unsigned char> readUri(const std::string& path, const std::string& place, const std::string& uri,
                                    std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 bool isDataUri(const std::string& uri);
+// Which image is read of those that a texture of the document offers.
+std::optional<std::size_t> imageOf(const nlohmann::json& texture);
 // Where a uri that is not data: points: to the first file that is there of its name as it is, decoded, and with slashes for backslashes, as
 // exporters write all three.
 std::filesystem::path externalFile(const std::string& path, const std::string& uri);

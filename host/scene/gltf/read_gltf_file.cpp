@@ -275,8 +275,6 @@ void warnOfSamplers(const json& document, Warnings& warnings)
     }
 }
 
-// The image of an extension goes before the texture's own, which is there for readers that do not know the extension. Images of kinds that
-// glim does not know come last: they are refused with their names, or drawn grey.
 std::vector<GltfTexture> listTextures(const json& document)
 {
     std::vector<GltfTexture> textures;
@@ -287,14 +285,7 @@ std::vector<GltfTexture> listTextures(const json& document)
         texture.wrapS = wrapOf(sampler, "wrapS");
         texture.wrapT = wrapOf(sampler, "wrapT");
         texture.nearest = isNearest(sampler);
-        const json extensions = entry.value("extensions", json::object());
-        const auto extension = [&extensions](const char* name) { return extensions.value(name, json::object()); };
-        for (const json& holder : {extension("EXT_texture_webp"), extension("KHR_texture_basisu"), entry, extension("EXT_texture_avif"),
-                                   extension("MSFT_texture_dds")}) {
-            if (!texture.image && holder.contains("source")) {
-                texture.image = holder["source"].get<std::size_t>();
-            }
-        }
+        texture.image = imageOf(entry);
         textures.push_back(std::move(texture));
     }
     return textures;
@@ -375,6 +366,7 @@ GltfFile readGltfFile(const std::filesystem::path& file, bool confined)
     }
 
     result.path = path;
+    result.confined = confined;
     result.buffers = readBuffers(path, document, container);
     result.files = listFiles(path, document);
     result.ownBuffers = result.buffers.size();
@@ -395,6 +387,21 @@ GltfFile readGltfFile(const std::filesystem::path& file, bool confined)
     }
     result.model = parseModel(path, std::move(document));
     return result;
+}
+
+// The image of an extension goes before the texture's own, which is there for readers that do not know the extension. Images of kinds that
+// glim does not know come last: they are refused with their names, or drawn grey.
+std::optional<std::size_t> imageOf(const json& texture)
+{
+    const json extensions = texture.value("extensions", json::object());
+    const auto extension = [&extensions](const char* name) { return extensions.value(name, json::object()); };
+    for (const json& holder : {extension("EXT_texture_webp"), extension("KHR_texture_basisu"), texture, extension("EXT_texture_avif"),
+                               extension("MSFT_texture_dds")}) {
+        if (holder.contains("source")) {
+            return holder["source"].get<std::size_t>();
+        }
+    }
+    return std::nullopt;
 }
 
 bool isDataUri(const std::string& uri) { return uri.rfind("data:", 0) == 0; }

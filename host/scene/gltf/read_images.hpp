@@ -19,6 +19,14 @@ struct DecodedParts {
     std::map<std::pair<std::uint32_t, bool>, std::shared_ptr<const DecodedImage>> images;
     std::map<std::string, std::shared_ptr<const RadianceMap>> maps;
 
+    void forgetImage(std::size_t image)
+    {
+        for (const bool isColor : {false, true}) {
+            images.erase({static_cast<std::uint32_t>(image), isColor});
+        }
+        maps.clear();  // one may be of it
+    }
+
     // The map of that name; makes it if it is not there.
     std::shared_ptr<const RadianceMap> findMap(const std::string& name, const std::function<RadianceMap()>& make)
     {

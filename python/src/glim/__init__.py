@@ -23,7 +23,7 @@ import numpy
 
 from glim._additions import Light, Plane, written
 from glim._camera import Camera
-from glim._elements import Addition, Elements, FileCamera, Material, Node, PunctualLight, SceneFile, columns_of
+from glim._elements import Addition, Elements, FileCamera, Image, Material, Node, PunctualLight, SceneFile, columns_of
 from glim._errors import DeviceError, GlimWarning, InputError, unusable
 from glim._options import additions_of, in_python, path_of, values_of
 from glim._own_files import OwnFile, texels_of
@@ -387,6 +387,11 @@ class Scene:
     @property
     def materials(self) -> Elements[Material]:
         return self._file().materials
+
+    @property
+    def images(self) -> Elements[Image]:
+        """Textures' pixels, of the scene's own file: scene.images["wood"].replace(pixels). Materials name theirs (Material.images)."""
+        return self._file().images
 
     @property
     def lights(self) -> Elements[PunctualLight]:

@@ -1,5 +1,6 @@
-"""Nodes, materials, lights and cameras of a scene's files. Each edit of them is a pointer of glTF's object model."""
+"""Nodes, materials, images, lights and cameras of a scene's files. Each edit of them is a pointer of glTF's object model."""
 
+import base64
 import difflib
 import json
 import math
@@ -10,6 +11,7 @@ import numpy
 from glim._camera import _numbers, _rows
 from glim._errors import InputError, unusable
 from glim._options import values_of
+from glim._own_files import png_of
 
 _LIGHTS = "/extensions/KHR_lights_punctual/lights"
 
@@ -215,6 +217,39 @@ class Material(Element):
         self._set({"emissiveFactor": finite("emission", value, (3,), "3 numbers"),
                    "extensions/KHR_materials_emissive_strength/emissiveStrength": 1.0})
 
+    @property
+    def images(self) -> Dict[str, "Image"]:
+        """Those of its textures, by glTF's names: baseColorTexture, normalTexture, clearcoatRoughnessTexture and others."""
+        return dict(_images_in(self._file, self._file.value(self)))
+
+
+def _images_in(file, value):
+    for name, member in value.items():
+        if name.endswith("Texture") and isinstance(member, dict):
+            image = file.image_of(member["index"])
+            if image is not None:
+                yield name, image
+        elif isinstance(member, dict):
+            yield from _images_in(file, member)
+
+
+class Image(Element):
+    """An image of the file, which one or several textures draw."""
+
+    _list = "/images"
+
+    def replace(self, pixels: Any) -> None:
+        """Draws others in its place. A texture may show a part of them, or repeat them, as the file has it.
+
+        pixels: (height, width), (height, width, 3) or (height, width, 4), uint8 or uint16, of anything with the buffer protocol or
+            __dlpack__. Row 0 is at v = 0. Encoded as the file's are: colours by sRGB, all else linear. Without a fourth channel alpha
+            is 1."""
+        self._set({"uri": "data:image/png;base64," + base64.b64encode(png_of(pixels)).decode()})
+
+    def undo(self) -> None:
+        """Draws the file's pixels again."""
+        self._file.scene.set(self.pointer + "/uri", None)
+
 
 class PunctualLight(Element):
     """A light of KHR_lights_punctual. Its nodes say where it is; it shines along their -z."""
@@ -353,6 +388,16 @@ class SceneFile:
     @property
     def cameras(self) -> Elements[FileCamera]:
         return Elements(self, FileCamera, "cameras")
+
+    @property
+    def images(self) -> Elements[Image]:
+        """Textures' pixels."""
+        return Elements(self, Image, "images")
+
+    def image_of(self, texture: int) -> Optional[Image]:
+        with self.scene._reading(self.path) as read:
+            index = read.image_of(texture)
+        return None if index is None else self.images[index]
 
     def names(self, place) -> List[str]:
         with self.scene._reading(self.path) as read:

@@ -112,11 +112,11 @@ class RenderOptions(TypedDict, total=False):
     shift: Tuple[float, float]
     """Shift of the picture to the right and up, in units of its longer side [0,0]"""
 
-    crop: Tuple[int, int, int, int]
-    """Render only W x H pixels of the picture, from column X and row Y on [all]"""
-
     projection: Literal["camera", "equirectangular"]
     """camera, as the file says, or equirectangular: 360 degrees [camera]"""
+
+    crop: Tuple[int, int, int, int]
+    """Render only W x H pixels of the picture, from column X and row Y on [all]"""
 
     spp: int
     """Samples per pixel, 1 to 2147483648 [64; 4 with a view other than shaded]"""
