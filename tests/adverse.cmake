@@ -20,7 +20,12 @@ set(tooSlowUnderAdverse
     BsdfSamplingTest.MixturesFollowTheirDensity
     CoplanarTest.*
     KernelRegistersTest.*
+    LeavePiecesTest.*
     LightChoiceTest.CertainLightsLackTheirProbability
+    LightChoiceTest.DrawsWithTheProbabilitiesThatItStates
+    LightChoiceTest.FollowsWhatArrivesBetterThanPower
+    LightChoiceTest.H14AMillionLights
+    LightTest.DiskOfManyTriangles
     NextRayTest.TheLastRayIsTracedOnlyForWhatItAloneFinds
     NlMeans.BandsOfALargePictureJoin
     Places/LeaveSurfaceTest.*/At1e4
@@ -28,6 +33,7 @@ set(tooSlowUnderAdverse
     Places/LeaveSurfaceTest.*/Size1e3AtOrigin
     Places/LeaveSurfaceTest.*/Size1e5AtOrigin
     Places/LeaveSurfaceTest.*/Tiny
+    Places/LeaveSurfaceTest.*/Unit
     PrincipledTest.OpaqueMaterialsAreReciprocal
     Rows/InstancesTest.*/Far
     Rows/InstancesTest.*/FarAndUpright
@@ -42,6 +48,9 @@ set(tooSlowUnderAdverse
     Scenes/GoldenTest.*/cloth
     Scenes/GoldenTest.*/cornell_gems
     Scenes/GoldenTest.*/cornell_mirror_glass
+    Scenes/GoldenTest.*/furnace
+    Scenes/GoldenTest.*/light_directional
+    Scenes/GoldenTest.*/light_point
     Scenes/GoldenTest.*/liquid
     Scenes/GoldenTest.*/many_lights
     Scenes/GoldenTest.*/materials

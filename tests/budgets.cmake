@@ -186,8 +186,8 @@ set(onlyInCi
     GpuCheckTest
     LeanKernelsTest
     PythonAddedTest
-    PythonAddedTest
     PythonBitsTest
+    PythonImagesTest
     PythonMapsTest
     PythonManyTest
     PythonRandomDomainTest

@@ -17,7 +17,8 @@ function(glim_embed_shaders target)
     set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target})
     file(MAKE_DIRECTORY ${directory})
     set(header "#pragma once\n#include \"host/gpu/embedded_shader.hpp\"\nnamespace glim::${ARG_NAMESPACE} {\n")
-    set(objects "")
+    set(definitions "#include \"host/gpu/embedded_shader.hpp\"\n")
+    set(compiled "")
     foreach(source IN LISTS ARG_SOURCES)
         get_filename_component(source ${source} ABSOLUTE)
         get_filename_component(stem ${source} NAME_WE)
@@ -32,9 +33,7 @@ function(glim_embed_shaders target)
             DEPFILE ${spirv}.d
             DEPENDS ${source} mark_floats
             COMMENT "Compiling ${stem}.comp" VERBATIM)
-        set(definition ${directory}/${stem}.cpp)
-        file(CONFIGURE OUTPUT ${definition} @ONLY CONTENT [[
-#include "host/gpu/embedded_shader.hpp"
+        string(CONFIGURE [[
 asm(".section .rodata\n.balign 4\n@stem@_begin:\n.incbin \"@spirv@\"\n@stem@_end:\n.previous\n");
 extern "C" const std::uint32_t @stem@_words[] asm("@stem@_begin");
 extern "C" const std::uint32_t @stem@_wordsEnd[] asm("@stem@_end");
@@ -42,12 +41,15 @@ namespace glim::@ARG_NAMESPACE@ {
 extern const EmbeddedShader @stem@;
 const EmbeddedShader @stem@{"@stem@", @stem@_words, @stem@_wordsEnd};
 }
-]])
-        set_source_files_properties(${definition} PROPERTIES OBJECT_DEPENDS ${spirv})
-        list(APPEND objects ${definition})
+]] definition @ONLY)
+        string(APPEND definitions "${definition}")
+        list(APPEND compiled ${spirv})
         string(APPEND header "extern const EmbeddedShader ${stem};\n")
     endforeach()
     file(CONFIGURE OUTPUT ${directory}/${ARG_NAMESPACE}.hpp CONTENT "${header}}\n" @ONLY)
-    add_library(${target} STATIC ${objects})
+    set(source ${directory}/${ARG_NAMESPACE}.cpp)  # one for all: the compiler takes longer to start than to compile it
+    file(CONFIGURE OUTPUT ${source} CONTENT "${definitions}" @ONLY)
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${compiled}")
+    add_library(${target} STATIC ${source})
     target_include_directories(${target} PUBLIC ${directory} ${PROJECT_SOURCE_DIR})
 endfunction()

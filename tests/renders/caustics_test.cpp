@@ -21,7 +21,7 @@ struct Variant {
     SceneBuilder builder;
     Lens lens;
     std::function<void(Scene&)> change = [](Scene&) {};
-    RenderSettings settings = squareSettings(32, samplesFor(2048));
+    RenderSettings settings = squareSettings(32, samplesFor(1024));
 };
 
 enum class Lamp { Rectangle, TwoSidedTriangle, Sphere, TwoSidedSphere };
