@@ -3,6 +3,7 @@
 #include "host/job/parse.hpp"
 #include "host/render/prepare_scene.hpp"
 
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -182,6 +183,14 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     }
     if (options.size) {
         load.aspectRatio = static_cast<float>(options.size->x) / static_cast<float>(options.size->y);
+    }
+    if (options.projection.intrinsics && options.size) {  // a framed camera sees the scene in what is symmetric about its axis
+        const Intrinsics& k = *options.projection.intrinsics;
+        const glm::dvec2 half = glm::min(k.center, glm::dvec2(*options.size) - k.center) / k.focal;
+        if (half.x > 0.0 && half.y > 0.0) {
+            load.yfov = static_cast<float>(2.0 * std::atan(half.y));
+            load.aspectRatio = static_cast<float>(half.x / half.y);
+        }
     }
     return load;
 }

@@ -31,6 +31,9 @@ void Viewpoint::enter(const Scene& scene)
     for (Camera& camera : cameras_) {
         const bool hasAngle = camera.kind == Camera::Kind::Perspective;
         camera = applyField(camera, {hasAngle ? field_.degrees : std::nullopt, field_.zoom});
+        if (hasAngle && projection_.intrinsics && projection_.intrinsics->center.y > 0.0) {  // for who frames the scene by it
+            camera.yfov = static_cast<float>(2.0 * std::atan(projection_.intrinsics->center.y / projection_.intrinsics->focal.y));
+        }
     }
     origin_ = scene.origin;
     bounds_ = computeBoundingSphere(scene);

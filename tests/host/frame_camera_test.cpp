@@ -1,5 +1,6 @@
 // The framed camera: the box around the scene is in the middle of the picture and fills it up to the margin.
 #include "host/scene/frame_camera.hpp"
+#include "host/job/picture_options.hpp"
 #include "host/scene/pose.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/test_meshes.hpp"
@@ -149,6 +150,19 @@ TEST(FrameCamera, IsThereForFilesWithCamerasIfAskedFor)
     const Scene scene = test::load(builder, options);
     ASSERT_EQ(scene.cameras.size(), 2U);
     EXPECT_EQ(scene.cameras[1].name, "framed");
+}
+
+// The angle of a framed camera is that of the part of its picture that is symmetric about the axis.
+TEST(FrameCamera, KnowsIntrinsics)
+{
+    PictureOptions options;
+    options.size = {640, 480};
+    options.projection.intrinsics = Intrinsics{{600.0, 500.0}, {300.0, 260.0}};
+    const LoadOptions load = makeLoadOptions(options);
+    EXPECT_FLOAT_EQ(load.yfov, static_cast<float>(2.0 * std::atan(220.0 / 500.0)));
+    EXPECT_FLOAT_EQ(load.aspectRatio, (300.0F / 600.0F) / (220.0F / 500.0F));
+    options.projection.intrinsics->center = {-5.0, 260.0};
+    EXPECT_FLOAT_EQ(makeLoadOptions(options).aspectRatio, 4.0F / 3.0F) << "no such part";
 }
 
 }  // namespace
