@@ -225,6 +225,7 @@ TEST(ViewpointTest, HasAProjection)
     Projection expected = lens;
     expected.intrinsics->size = {80, 60};
     EXPECT_EQ(viewpoint.camera({80, 60}).projection, expected);
+    EXPECT_FLOAT_EQ(viewpoint.camera({80, 60}).yfov, 2.0F * std::atan(30.0F / 25.0F)) << "by which F frames the scene";
     expected.intrinsics->size = {160, 120};
     EXPECT_EQ(viewpoint.camera({160, 120}).projection, expected);
     const Pose before = viewpoint.pose();

@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 class KernelCacheTest : public testing::Test {
 protected:
     // The film of a run with this folder, and these variables besides.
-    Film render(const std::map<std::string, std::string>& more = {})
+    Film render(const std::map<std::string, std::string>& more = {}, const std::string& scene = "cornell.gltf")
     {
         GlimCall call;
-        call.arguments = {"render", sceneFile("cornell.gltf"), "-o", "f.exr", "--size", "16x16", "--spp", "1"};
+        call.arguments = {"render", sceneFile(scene), "-o", "f.exr", "--size", "16x16", "--spp", "1"};
         call.environment["GLIM_CACHE_DIR"] = (folder_ / "cache").string();
         for (const auto& [name, value] : more) {
             call.environment[name] = value;
@@ -64,6 +64,14 @@ TEST_F(KernelCacheTest, HoldsTheSpirvOfTheRunBefore)
     }
     render({{"GLIM_ARITHMETIC", "adverse:1"}});
     EXPECT_EQ(files(), both) << "adverse kernels are not kept";
+}
+
+// Kernels of one name, with other constants.
+TEST_F(KernelCacheTest, AnotherScenesKernelsAreItsOwn)
+{
+    render();
+    const Film kept = render({}, "light_point.gltf");
+    EXPECT_TRUE(sameBits(kept, render({{"GLIM_CACHE_DIR", ""}}, "light_point.gltf")));
 }
 
 TEST_F(KernelCacheTest, DamagedFilesAreMadeAgain)
