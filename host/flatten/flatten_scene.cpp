@@ -25,6 +25,17 @@ uvec4 texel(const glm::vec3& v, std::uint32_t w)
     return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), w};
 }
 
+bool hasCatcher(const Scene& scene)
+{
+    const std::vector<bool> used = findUsedMaterials(scene);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i] && scene.materials[i].isCatcher) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool isSliver(const Triangle& triangle)
 {
     const glm::dvec3 v0 = triangle.vertices[0], v1 = triangle.vertices[1], v2 = triangle.vertices[2];
@@ -37,8 +48,11 @@ bool isSliver(const Triangle& triangle)
 std::vector<std::uint32_t> materialWordsOf(const Scene& scene)
 {
     std::vector<std::uint32_t> words;
+    const bool catches = hasCatcher(scene);
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        words.push_back(i | (scene.showsBackFaces || meetsBackFaces(scene.materials[i]) ? 0U : kSingleSidedBit));
+        const Material& material = scene.materials[i];
+        const bool isObject = catches && !material.isCatcher && material.emission == glm::vec3(0.0F);
+        words.push_back(i | (scene.showsBackFaces || meetsBackFaces(material) ? 0U : kSingleSidedBit) | (isObject ? kObjectBit : 0U));
     }
     return words;
 }
@@ -380,7 +394,8 @@ FlatScene flatten(const Scene& scene, const Primitives& primitives, const WideBv
     if (same == Same::Nothing) {
         pushSurfaces(flat, scene, primitives, bvh);
     }
-    flat.features = flat.surfaceFeatures | (areLightsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
+    flat.features =
+        flat.surfaceFeatures | (hasCatcher(scene) ? kFeatureCatcher : 0U) | (areLightsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];

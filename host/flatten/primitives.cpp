@@ -310,7 +310,7 @@ bool areSameSurface(const Material& a, const Material& b)
     const auto shapeOf = [](const Material& m) {
         const bool isOpaque = m.alphaMode == AlphaMode::Opaque;
         return std::tuple(m.alphaMode, isOpaque ? 1.0F : m.alpha, isOpaque ? 0.0F : m.alphaCutoff, passesStraight(m), m.doubleSided,
-                          m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(), m.emission != glm::vec3(0.0F),
+                          m.thick, isTextured(m), m.textures[kSlotEmissive].has_value(), m.emission != glm::vec3(0.0F), m.isCatcher,
                           m.transmission > 0.0F, m.diffuseTransmission > 0.0F);
     };
     return shapeOf(a) == shapeOf(b) && a.textures[kSlotBaseColor] == b.textures[kSlotBaseColor];

@@ -21,7 +21,8 @@ void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, 
     const std::uint64_t second = isNeighbours(settings.adaptive) ? 1 : 0;
     const std::uint64_t films = 2 + second + (checkpoints ? 2 * (3 + second) : 0) + (settings.halves ? 4 : 0);
     const std::uint64_t onHost =
-        pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0)) +
+        pixels * (films * sizeof(PixelMoments) + (light ? films * sizeof(SplatMoments) + SplatSums::kPixelBytes : 0) +
+                  (settings.catcher ? films * sizeof(CatcherMoments) : 0)) +
         std::min(settings.tilePixels, settings.pixelCount()) * sizeof(PixelMoments);
     const auto refuse = [&](std::uint64_t needed, const MessagePart& owner, std::uint64_t there) {
         if (needed > there) {

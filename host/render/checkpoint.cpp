@@ -9,6 +9,7 @@ Film makeFilm(Checkpoint checkpoint)
 {
     foldPage(checkpoint.film, 0, checkpoint.page);
     foldSplats(checkpoint.film.splats, checkpoint.pageSplats);
+    foldCatcher(checkpoint.film.catcher, 0, checkpoint.pageCatcher);
     return std::move(checkpoint.film);
 }
 
@@ -28,7 +29,9 @@ std::optional<Checkpoint> makeCheckpoint(Film film)
     if (end % kPageSamples != 0) {
         std::swap(checkpoint.page, checkpoint.film.pixels);
         std::swap(checkpoint.pageSplats, checkpoint.film.splats);
+        std::swap(checkpoint.pageCatcher, checkpoint.film.catcher);
         checkpoint.film.pixels.resize(checkpoint.page.size());
+        checkpoint.film.catcher.resize(checkpoint.pageCatcher.size());
     }
     return checkpoint;
 }
@@ -47,6 +50,9 @@ std::string computeDigest(const Checkpoint& checkpoint)
         digest.add(*moments);
     }
     for (const auto* moments : {&checkpoint.film.splats, &checkpoint.pageSplats, &checkpoint.commonSplats}) {
+        digest.add(*moments);
+    }
+    for (const auto* moments : {&checkpoint.film.catcher, &checkpoint.pageCatcher, &checkpoint.commonCatcher}) {
         digest.add(*moments);
     }
     digest.add(adaptive.chosen);

@@ -13,9 +13,11 @@ struct Checkpoint {
     Film film;                             // what is folded; sample ranges and completeness are those of the whole
     std::vector<PixelMoments> page;        // finished blocks that are not folded; empty if there are none
     std::vector<SplatMoments> pageSplats;  // the same of light paths
+    std::vector<CatcherMoments> pageCatcher;
     // --adaptive neighbours.
     std::vector<PixelMoments> common;        // the samples that all pixels share, which are in the film too
     std::vector<SplatMoments> commonSplats;  // that were there with them
+    std::vector<CatcherMoments> commonCatcher;
 };
 
 // The film that it shows.

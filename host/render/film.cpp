@@ -40,6 +40,7 @@ std::string computeDigest(const Film& film)
     }
     digest.add(film.pixels);
     digest.add(film.splats);
+    digest.add(film.catcher);
     return digest.finish();
 }
 
@@ -48,6 +49,7 @@ std::string computePixelsDigest(const Film& film)
     Digest digest;
     digest.add(film.pixels);
     digest.add(film.splats);
+    digest.add(film.catcher);
     return digest.finish();
 }
 
@@ -74,6 +76,14 @@ void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>
     }
     for (std::size_t i = 0; i < page.size(); ++i) {
         film[i] = foldMoments(film[i], page[i]);
+    }
+}
+
+void foldCatcher(std::vector<CatcherMoments>& film, std::size_t begin, std::span<const CatcherMoments> page)
+{
+    film.resize(std::max(film.size(), begin + page.size()));
+    for (std::size_t i = 0; i < page.size(); ++i) {
+        film[begin + i] = foldMoments(film[begin + i], page[i]);
     }
 }
 

@@ -40,6 +40,7 @@ struct Film {
     std::optional<Crop> crop;                                           // of the picture
     std::vector<PixelMoments> pixels;                                   // row 0 at the top, left to right; of camera paths
     std::vector<SplatMoments> splats;                                   // of light paths; empty if there were none
+    std::vector<CatcherMoments> catcher;                                // of shadow catchers; empty if there were none
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sampleRanges;  // [begin, end), ascending, disjoint
     bool complete = true;                                               // each pixel has all of sampleRanges or, if adaptive, its own share
     FilmIdentity identity;
@@ -70,6 +71,9 @@ SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b);
 
 // Folds `page` onto `film`. Either may be empty.
 void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page);
+
+// The same of shadow catchers, from pixel `begin` on.
+void foldCatcher(std::vector<CatcherMoments>& film, std::size_t begin, std::span<const CatcherMoments> page);
 
 // Whether all of it is of one arithmetic: only then can it be bit-identical to a single run.
 bool hasOneArithmetic(const Film& film);

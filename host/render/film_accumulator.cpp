@@ -48,6 +48,7 @@ void FilmAccumulator::begin(Film film)
 {
     film_ = std::move(film);
     film_.pixels.assign(settings_.pixelCount(), PixelMoments{});
+    film_.catcher.assign(settings_.catcher ? settings_.pixelCount() : 0, CatcherMoments{});
     common_ = isNeighbours(settings_.adaptive) ? film_ : Film{};
     halves_.reset();
     keepsHalves_ = settings_.halves && !settings_.halvesLate;
@@ -99,11 +100,13 @@ void FilmAccumulator::foldPages(const std::vector<Film*>& films, const std::vect
         tracer_.closeBlocks(*tile);
         finishFold();  // the tile before this one, or the page before this one
         const std::span<const PixelMoments> pages = tile->takePages(*snapshot_);
-        folding_ = std::async(std::launch::async, [films, pages, begin = tile->begin() - settings_.firstPixel()] {
-            for (Film* film : films) {
-                foldPage(*film, begin, pages);
-            }
-        });
+        folding_ =
+            std::async(std::launch::async, [films, pages, catchers = tile->takeCatchers(), begin = tile->begin() - settings_.firstPixel()] {
+                for (Film* film : films) {
+                    foldPage(*film, begin, pages);
+                    foldCatcher(film->catcher, begin, catchers);
+                }
+            });
     }
 }
 
@@ -168,6 +171,7 @@ Film FilmAccumulator::sum()
     const Film page = pageSoFar();
     foldPage(film, 0, page.pixels);
     foldSplats(film.splats, page.splats);
+    foldCatcher(film.catcher, 0, page.catcher);
     return film;
 }
 
@@ -204,6 +208,8 @@ Checkpoint FilmAccumulator::checkpoint() const
     for (const auto& tile : tiles_) {
         const std::vector<PixelMoments> pages = tile->readPages();
         checkpoint.page.insert(checkpoint.page.end(), pages.begin(), pages.end());
+        const std::vector<CatcherMoments> catchers = tile->readCatchers();
+        checkpoint.pageCatcher.insert(checkpoint.pageCatcher.end(), catchers.begin(), catchers.end());
     }
     if (splats_) {
         checkpoint.pageSplats = splats_->page();
@@ -215,8 +221,10 @@ Checkpoint FilmAccumulator::checkpoint() const
     };
     clearIfEmpty(checkpoint.page);
     clearIfEmpty(checkpoint.pageSplats);
+    clearIfEmpty(checkpoint.pageCatcher);
     checkpoint.common = common_.pixels;
     checkpoint.commonSplats = common_.splats;
+    checkpoint.commonCatcher = common_.catcher;
     return checkpoint;
 }
 
@@ -231,12 +239,16 @@ void FilmAccumulator::resume(Checkpoint checkpoint)
         if (!checkpoint.page.empty()) {
             tile->writePages(std::span(checkpoint.page).subspan(tile->begin() - settings_.firstPixel(), tile->count()));
         }
+        if (!checkpoint.pageCatcher.empty()) {
+            tile->writeCatchers(std::span(checkpoint.pageCatcher).subspan(tile->begin() - settings_.firstPixel(), tile->count()));
+        }
     }
     if (splats_ && !checkpoint.pageSplats.empty()) {
         splats_->setPage(std::move(checkpoint.pageSplats));
     }
     common_.pixels = std::move(checkpoint.common);
     common_.splats = std::move(checkpoint.commonSplats);
+    common_.catcher = std::move(checkpoint.commonCatcher);
     renewVersion();
 }
 

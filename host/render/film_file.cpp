@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/film_place.hpp"
 #include "host/text.hpp"
 #include "version.h"
@@ -65,6 +66,20 @@ constexpr Layer kSplatCountLayers[] = {
     {"splatCount.", "X", offsetof(SplatMoments, count)},
     {"splatBlocks.", "X", offsetof(SplatMoments, blocks)},
 };
+
+static_assert(std::is_standard_layout_v<CatcherMoments> && sizeof(CatcherMoments) == 11 * sizeof(float));
+
+constexpr Layer kCatcherLayers[] = {
+    {"catcherShare.", "X", offsetof(CatcherMoments, share)},
+    {"catcherWith.", "RGB", offsetof(CatcherMoments, with)},
+    {"catcherWithout.", "RGB", offsetof(CatcherMoments, without)},
+    {"catcherSquares.", "XYZ", offsetof(CatcherMoments, squares)},
+};
+constexpr Layer kCompositeLayers[] = {
+    {"composite.", "RGB", offsetof(PixelMoments, mean)},
+    {"composite.", "A", offsetof(PixelMoments, alpha)},
+};
+constexpr Layer kCatcherCountLayers[] = {{"catcherCount.", "X", offsetof(CatcherMoments, count)}};
 
 // Calls visit(channel name, offset in the moments) for every channel of the layers.
 template <class Layers, class Visit>
@@ -169,9 +184,17 @@ void addSplats(const std::vector<SplatMoments>& splats, const Run& run, Image& i
     }
 }
 
+void addCatcher(const std::vector<CatcherMoments>& catcher, const Run& run, Image& image, const std::string& group = "")
+{
+    if (!catcher.empty()) {
+        addLayers(kCatcherLayers, run.of(catcher), image, group);
+        addCounts(kCatcherCountLayers, run.of(catcher), image, group);
+    }
+}
+
 void addFilm(const Film& film, const Run& run, bool errors, Image& image)
 {
-    std::vector<PixelMoments> shown(run.count);
+    std::vector<PixelMoments> shown(run.count), composite(film.catcher.empty() ? 0 : run.count);
     for (std::size_t i = 0; i < run.count; ++i) {
         shown[i] = shownPixel(film, run.begin + i);
     }
@@ -182,13 +205,20 @@ void addFilm(const Film& film, const Run& run, bool errors, Image& image)
         addLayers(kCameraLayers, run.of(film.pixels), image);
         addSplats(film.splats, run, image);
     }
+    addCatcher(film.catcher, run, image);
+    if (!film.catcher.empty()) {
+        for (std::size_t i = 0; i < run.count; ++i) {
+            composite[i] = compositePixel(shown[i], film.catcher[run.begin + i]);
+        }
+        addLayers(kCompositeLayers, std::span<const PixelMoments>(composite), image);
+    }
     if (errors) {
         addErrors(shown, image);
     }
 }
 
-void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMoments>& splats, const Run& run, Image& image,
-              const std::string& group)
+void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMoments>& splats, const std::vector<CatcherMoments>& catcher,
+              const Run& run, Image& image, const std::string& group)
 {
     if (!pixels.empty()) {
         addLayers(kMeanLayers, run.of(pixels), image, group);
@@ -196,6 +226,7 @@ void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMo
         addCounts(kCountLayers, run.of(pixels), image, group);
     }
     addSplats(splats, run, image, group);
+    addCatcher(catcher, run, image, group);
 }
 
 bool isEmpty(const std::vector<PixelMoments>& pixels)
@@ -214,7 +245,8 @@ constexpr const char *kAll = "all", *kNothing = "nothing", *kApart = "apart";
 
 const char* placeOfFolded(const Film& film, const Checkpoint& checkpoint)
 {
-    const bool same = areSame(film.pixels, checkpoint.film.pixels) && areSame(film.splats, checkpoint.film.splats);
+    const bool same = areSame(film.pixels, checkpoint.film.pixels) && areSame(film.splats, checkpoint.film.splats) &&
+                      areSame(film.catcher, checkpoint.film.catcher);
     return same ? kAll : isEmpty(checkpoint.film.pixels) ? kNothing : kApart;
 }
 
@@ -233,10 +265,10 @@ std::string progressText(const Checkpoint& checkpoint, const std::string& folded
 void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& run, Image& image)
 {
     if (folded == kApart) {
-        addGroup(checkpoint.film.pixels, checkpoint.film.splats, run, image, "folded.");
+        addGroup(checkpoint.film.pixels, checkpoint.film.splats, checkpoint.film.catcher, run, image, "folded.");
     }
-    addGroup(checkpoint.page, checkpoint.pageSplats, run, image, "page.");
-    addGroup(checkpoint.common, checkpoint.commonSplats, run, image, "common.");
+    addGroup(checkpoint.page, checkpoint.pageSplats, checkpoint.pageCatcher, run, image, "page.");
+    addGroup(checkpoint.common, checkpoint.commonSplats, checkpoint.commonCatcher, run, image, "common.");
     if (const auto& adaptive = checkpoint.progress.adaptive) {
         const auto copy = [&run](const std::vector<std::uint32_t>& counts) {
             const std::span<const std::uint32_t> part = run.of(counts);
@@ -423,9 +455,18 @@ void takeSplats(const fs::path& path, const Image& image, std::vector<SplatMomen
     takeCounts(path, kSplatCountLayers, image, splats, group);
 }
 
+void takeCatcher(const fs::path& path, const Image& image, std::vector<CatcherMoments>& catcher, const std::string& group = "")
+{
+    if (image.channels.contains(group + "catcherWith.R")) {
+        catcher.resize(std::size_t{image.width} * image.height);
+        takeLayers(path, kCatcherLayers, image, catcher, group);
+        takeCounts(path, kCatcherCountLayers, image, catcher, group);
+    }
+}
+
 // Leaves empty what the group does not have.
 void takeGroup(const fs::path& path, const Image& image, std::vector<PixelMoments>& pixels, std::vector<SplatMoments>& splats,
-               const std::string& group)
+               std::vector<CatcherMoments>& catcher, const std::string& group)
 {
     const std::size_t count = std::size_t{image.width} * image.height;
     if (image.channels.contains(group + "R")) {
@@ -438,6 +479,7 @@ void takeGroup(const fs::path& path, const Image& image, std::vector<PixelMoment
         splats.resize(count);
         takeSplats(path, image, splats, group);
     }
+    takeCatcher(path, image, catcher, group);
 }
 
 Film filmOfImage(const fs::path& path, const Image& image)
@@ -453,6 +495,7 @@ Film filmOfImage(const fs::path& path, const Image& image)
     } else {
         takeLayers(path, kMeanLayers, image, film.pixels);
     }
+    takeCatcher(path, image, film.catcher);
     if (const std::string digest = textIfPresent(image, "glim:digest"); !digest.empty()) {
         checkDigest(path, "samples", computeDigest(film), digest);
     }
@@ -480,11 +523,12 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
     if (folded != kAll) {
         checkpoint.film.pixels.assign(pixels, PixelMoments{});
         checkpoint.film.splats.clear();
-        takeGroup(path, image, checkpoint.film.pixels, checkpoint.film.splats, "folded.");
-        takeGroup(path, image, checkpoint.page, checkpoint.pageSplats, "page.");
+        std::ranges::fill(checkpoint.film.catcher, CatcherMoments{});
+        takeGroup(path, image, checkpoint.film.pixels, checkpoint.film.splats, checkpoint.film.catcher, "folded.");
+        takeGroup(path, image, checkpoint.page, checkpoint.pageSplats, checkpoint.pageCatcher, "page.");
     }
     if (auto& adaptive = progress.adaptive) {
-        takeGroup(path, image, checkpoint.common, checkpoint.commonSplats, "common.");
+        takeGroup(path, image, checkpoint.common, checkpoint.commonSplats, checkpoint.commonCatcher, "common.");
         checkpoint.common.resize(pixels);
         adaptive->chosen.resize(pixels);
         adaptive->blocksLeft.resize(pixels);

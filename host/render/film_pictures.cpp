@@ -2,6 +2,7 @@
 
 #include "host/image/picture_file.hpp"
 #include "host/message.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/settings.hpp"
 #include "shaders/shared/luminance.h"
 
@@ -18,7 +19,7 @@ std::vector<Color> draw(const Film& film, Aov aov, const Look& look,
 {
     const DisplayRange range = computeRange(film, aov);
     std::vector<Color> colors;
-    for (const PixelMoments& pixel : shownPixels(film)) {
+    for (const PixelMoments& pixel : pictureOf(film)) {
         colors.push_back(display(pixel, aov, range, look));
     }
     return colors;

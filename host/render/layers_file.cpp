@@ -2,6 +2,7 @@
 
 #include "host/image/exr.hpp"
 #include "host/message.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/film_place.hpp"
 #include "version.h"
 
@@ -28,7 +29,7 @@ void writeLayers(const std::filesystem::path& path, const Film& film, ExrCompres
         image.halves.insert(name);
         image.channels[name].push_back(isTooLarge ? std::copysign(kLargestHalf, value) : value);
     };
-    for (const PixelMoments& pixel : shownPixels(film)) {
+    for (const PixelMoments& pixel : pictureOf(film)) {
         for (int k = 0; k < 3; ++k) {
             add(std::string(1, "RGB"[k]), pixel.mean[k]);
             add(std::string("albedo.") + "RGB"[k], pixel.albedo[k]);

@@ -147,6 +147,7 @@ void appendRows(Film& film, Film below)
     film.rowsBelow = below.rowsBelow;
     film.pixels.insert(film.pixels.end(), below.pixels.begin(), below.pixels.end());
     film.splats.insert(film.splats.end(), below.splats.begin(), below.splats.end());
+    film.catcher.insert(film.catcher.end(), below.catcher.begin(), below.catcher.end());
 }
 
 // Whether bands of one run are one run together. Refuses `below` unless it is the next band of `above`, with the same samples.
@@ -242,6 +243,7 @@ void foldFilm(Film& film, const Film& next)
 {
     foldPage(film, 0, next.pixels);
     foldSplats(film.splats, next.splats);
+    foldCatcher(film.catcher, 0, next.catcher);
     foldHeader(film, next);
 }
 

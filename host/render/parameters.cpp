@@ -22,8 +22,14 @@ PathLengths pathLengths(const RenderSettings& settings)
 
 bool tracesLight(const FlatScene& scene, const RenderSettings& settings)
 {
-    return (scene.features & kFeatureCaustics) != 0 && settings.caustics && settings.aov == Aov::Radiance &&
+    return (scene.features & kFeatureCaustics) != 0 && settings.caustics && !settings.catcher && settings.aov == Aov::Radiance &&
            pathLengths(settings).maxBounces >= 2 && !usesCourseEstimators(settings) && !isCourse(settings.adaptive);
+}
+
+bool catches(const FlatScene& scene, const RenderSettings& settings)
+{
+    return (scene.features & kFeatureCatcher) != 0 && settings.aov == Aov::Radiance && !usesCourseEstimators(settings) &&
+           !isCourse(settings.adaptive);
 }
 
 float splatScale(const FlatScene& scene)
@@ -56,7 +62,8 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.firstTangent = scene.firstTangent;
     parameters_.firstColor = scene.firstColor;
     parameters_.firstMedium = scene.firstMedium;
-    parameters_.hidesEnvironment = scene.hidesEnvironment ? 1 : 0;
+    parameters_.hidesEnvironment = scene.hidesEnvironment || settings.catcher ? 1 : 0;
+    parameters_.darkensObjects = settings.catcher && !settings.catcherReflections ? 1 : 0;
     parameters_.environmentSize = scene.environmentMap->size;
     parameters_.environmentCells = scene.environmentMap->cellCount;
     parameters_.environmentRotation = scene.environmentRotation;

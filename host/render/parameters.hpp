@@ -18,6 +18,9 @@ PathLengths pathLengths(const RenderSettings& settings);
 // estimators and its own rule of when a pixel is done, both of camera paths.
 bool tracesLight(const FlatScene& scene, const RenderSettings& settings);
 
+// Whether a film can keep what the scene's shadow catchers show (RenderSettings::catcher): not of the course's estimators, nor of AOVs.
+bool catches(const FlatScene& scene, const RenderSettings& settings);
+
 // Units of a splat per W/(sr m^2). A pixel holds 2^32 times the radiance that the scene's brightest light gives a white surface, in steps
 // of 2^-32 of it.
 float splatScale(const FlatScene& scene);

@@ -57,6 +57,12 @@ void PassTracer::tracePaths(Recording& recording, const Tile& tile, const Pass& 
     finish(recording, tile, progress);
 }
 
+// A sample has a second path where shadow catchers are (shaders/access/catcher.glsl).
+std::uint32_t PassTracer::pathsOf(const Pass& pass) const
+{
+    return pass.pixelCount * pass.sampleCount * (resources_.settings.catcher ? 2 : 1);
+}
+
 bool PassTracer::startsAhead() const
 {
     const bool isTimed = resources_.device.description().nanosecondsPerTick > 0.0F;  // the host would time the pass before too
@@ -101,7 +107,7 @@ PassProgress PassTracer::begin(Recording& recording, const Tile& tile, Pass pass
 {
     resources_.history.firstRound = kRoundsOfPass - resources_.history.firstRound;
     pass.round = resources_.history.firstRound;
-    PassProgress progress{pass, addsSamples, pass.round, 0, pass.pixelCount * pass.sampleCount};
+    PassProgress progress{pass, addsSamples, pass.round, 0, pathsOf(pass)};
     writeRounds(recording, progress.firstRound, progress.alive, isPersistent() ? pathsPerThread() : 1);
     // generate_rays fills the queue that bounce 0 reads: the next queue of the odd bindings.
     recording.dispatch(*kernels().generateRays, tile.bindings(1), pass, resources_.countGroups(progress.alive));

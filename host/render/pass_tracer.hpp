@@ -60,6 +60,7 @@ public:
 private:
     PassProgress begin(Recording& recording, const Tile& tile, Pass pass, bool addsSamples) const;
     bool finish(Recording& recording, const Tile& tile, PassProgress& progress) const;
+    std::uint32_t pathsOf(const Pass& pass) const;
     bool isOver(PassProgress& progress) const;
     void recordRounds(Recording& recording, const Tile& tile, PassProgress& progress, std::uint32_t count) const;
     void recordRound(Recording& recording, const Bindings& bindings, const Pass& pass) const;

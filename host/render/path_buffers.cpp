@@ -54,6 +54,7 @@ std::vector<BindingSlot> kernelSlots()
     }
     slots.push_back({kBindParameters, BufferKind::Storage});
     slots.push_back({kBindSplats, BufferKind::Storage});
+    slots.push_back({kBindCatchers, BufferKind::Storage});
     slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
 }
@@ -76,12 +77,12 @@ std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescri
 
 std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDescription& device)
 {
-    const std::uint32_t most = maxPathCapacity(settings, device);
+    const std::uint32_t most = maxPathCapacity(settings, device), least = kBlockSamples * (settings.catcher ? 2 : 1);
     if (settings.pathCapacity) {
-        return std::min(*settings.pathCapacity, most);
+        return std::min(std::max(*settings.pathCapacity, least), most);
     }
     const auto ofMemory = static_cast<std::uint32_t>(std::min<std::uint64_t>(device.memory / kPathPart / kPathBytes, most));
-    return std::max(kBlockSamples, std::bit_floor(std::min(rulesOf(device.deviceClass).pathCapacity, ofMemory)));
+    return std::max(least, std::bit_floor(std::min(rulesOf(device.deviceClass).pathCapacity, ofMemory)));
 }
 
 PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
@@ -176,16 +177,19 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
       begin_(begin),
       count_(count),
       chooses_(settings.adaptive != Adaptive::Off),
+      catches_(settings.catcher),
       blocks_(makeArray<BlockSums>(device, "film's blocks", count)),
       pages_(makeArray<PixelMoments>(device, "film's pages", count)),
       luminance_(makeArray<LuminanceMoments>(device, "pixels' luminances", isCourse(settings.adaptive) ? count : 1)),
       brightest_(makeArray<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
+      catchers_(makeArray<CatcherSums>(device, "shadow catchers", settings.catcher ? count : 1)),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + (chooses_ ? count : 1) * sizeof(ChosenPixel))
 {
     const auto fixed = merged(constants, {{kBindBlocks, &blocks_},
                                           {kBindPages, &pages_},
                                           {kBindLuminance, &luminance_},
                                           {kBindBrightest, &brightest_},
+                                          {kBindCatchers, &catchers_},
                                           {kBindChosenPixels, &chosen_}});
     even_.emplace(layout, merged(fixed, paths.buffers(0)));
     odd_.emplace(layout, merged(fixed, paths.buffers(1)));
@@ -194,7 +198,7 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
 
 void Tile::clear()
 {
-    fillWithZero({&blocks_, &pages_, &luminance_, &brightest_});
+    fillWithZero({&blocks_, &pages_, &luminance_, &brightest_, &catchers_});
     chooseAll();
 }
 
@@ -203,13 +207,17 @@ void Tile::copySamples(const Tile& other, std::uint32_t first)
     Commands commands(device_);
     commands.copy(other.blocks_.handle(), first * sizeof(BlockSums), blocks_.handle(), count_ * sizeof(BlockSums));
     commands.copy(other.pages_.handle(), first * sizeof(PixelMoments), pages_.handle(), count_ * sizeof(PixelMoments));
+    if (catches_) {
+        commands.copy(other.catchers_.handle(), first * sizeof(CatcherSums), catchers_.handle(), count_ * sizeof(CatcherSums));
+    }
     commands.submitAndWait();
 }
 
 std::uint64_t Tile::bytesPerPixel(const RenderSettings& settings)
 {
     return sizeof(BlockSums) + sizeof(PixelMoments) + (settings.suspects > 0 ? sizeof(BrightestSample) : 0) +
-           (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) + (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
+           (settings.catcher ? sizeof(CatcherSums) : 0) + (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) +
+           (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
 }
 
 void Tile::fillWithZero(std::initializer_list<const Buffer*> buffers)
@@ -228,6 +236,33 @@ std::span<const PixelMoments> Tile::takePages(const HostBuffer& target)
     commands.fillWithZero(pages_);
     commands.submitAndWait();
     return {reinterpret_cast<const PixelMoments*>(target.mapped()), count_};
+}
+
+std::vector<CatcherMoments> Tile::readCatchers() const
+{
+    std::vector<CatcherMoments> pages;
+    if (catches_) {
+        for (const CatcherSums& sums : download<CatcherSums>(catchers_, count_)) {
+            pages.push_back(sums.page);
+        }
+    }
+    return pages;
+}
+
+std::vector<CatcherMoments> Tile::takeCatchers()
+{
+    std::vector<CatcherMoments> pages = readCatchers();
+    if (catches_) {
+        fillWithZero({&catchers_});
+    }
+    return pages;
+}
+
+void Tile::writeCatchers(std::span<const CatcherMoments> pages)
+{
+    std::vector<CatcherSums> sums(pages.size());
+    std::ranges::transform(pages, sums.begin(), [](const CatcherMoments& page) { return CatcherSums{0.0F, vec3(0.0F), vec3(0.0F), page}; });
+    upload(catchers_, std::span<const CatcherSums>(sums));
 }
 
 void Tile::chooseAll()

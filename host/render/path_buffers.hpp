@@ -103,6 +103,10 @@ public:
     std::span<const PixelMoments> takePages(const HostBuffer& target);
     std::vector<PixelMoments> readPages() const { return download<PixelMoments>(pages_, count_); }
     void writePages(std::span<const PixelMoments> pages) { upload(pages_, pages); }
+    // What the pages know of shadow catchers, between blocks; empty if the settings ask for none.
+    std::vector<CatcherMoments> takeCatchers();
+    std::vector<CatcherMoments> readCatchers() const;
+    void writeCatchers(std::span<const CatcherMoments> pages);
     // Empties everything; all pixels are chosen.
     void clear();
     // Copies the samples of count() pixels of `other`, from its pixel `first` on.
@@ -118,10 +122,11 @@ private:
 
     Device& device_;
     std::uint32_t begin_, count_;
-    bool chooses_;
+    bool chooses_, catches_;
     Buffer blocks_, pages_;
     Buffer luminance_;  // LuminanceMoments
     Buffer brightest_;  // BrightestSample
+    Buffer catchers_;   // CatcherSums
     Buffer chosen_;     // the number of chosen pixels, then each ChosenPixel
     std::optional<Bindings> even_, odd_;
 };

@@ -16,7 +16,7 @@ Renderer::Renderer(Device& device, const FlatScene& scene, const FlatCamera& cam
       sceneIdentity_(scene),
       start_(Clock::now()),
       resources_(std::make_unique<RenderResources>(device, scene, camera, settings)),
-      passSize_(scene, settings, resources_->paths().capacity()),
+      passSize_(scene, settings, resources_->paths().capacity() / (settings.catcher ? 2 : 1)),
       plan_(settings, tracesLight(scene, settings))
 {
     open(scene, camera);
@@ -27,7 +27,7 @@ Renderer::Renderer(const Renderer& other, const FlatScene& scene, const FlatCame
       sceneIdentity_(other.sceneIdentity_),
       start_(Clock::now()),
       resources_(std::make_unique<RenderResources>(*other.resources_, scene, camera, settings)),
-      passSize_(scene, settings, resources_->paths().capacity()),
+      passSize_(scene, settings, resources_->paths().capacity() / (settings.catcher ? 2 : 1)),
       plan_(settings, tracesLight(scene, settings))
 {
     open(scene, camera);

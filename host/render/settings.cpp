@@ -45,6 +45,9 @@ std::string describeSettings(const RenderSettings& settings)
     if (!settings.caustics) {
         text << " caustics=off";
     }
+    if (settings.catcher) {
+        text << " catcher=" << (settings.catcherReflections ? "on" : "shadows");
+    }
     return text.str();
 }
 

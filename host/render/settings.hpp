@@ -91,10 +91,12 @@ struct RenderSettings {
     std::optional<double> seconds;  // stop sampling after this long
 
     // What is recorded besides the picture. This changes no bit of it.
-    std::uint32_t suspects = 0;  // how many of the brightest samples to list; each pixel keeps its own (suspects.hpp)
-    bool halves = false;         // the samples in two independent halves too (film_halves.hpp); only with Adaptive::Off
-    bool halvesLate = false;     // the halves begin when Renderer::keepHalves() is called
-    bool notes = false;          // kernels record what happens to the only path of a pass (replay.hpp)
+    std::uint32_t suspects = 0;      // how many of the brightest samples to list; each pixel keeps its own (suspects.hpp)
+    bool catcher = false;            // the film keeps what shadow catchers show; only of scenes with kFeatureCatcher (catches())
+    bool catcherReflections = true;  // they reflect objects and their light
+    bool halves = false;             // the samples in two independent halves too (film_halves.hpp); only with Adaptive::Off
+    bool halvesLate = false;         // the halves begin when Renderer::keepHalves() is called
+    bool notes = false;              // kernels record what happens to the only path of a pass (replay.hpp)
 
     // How the work is cut: these change no bit of the picture.
     Schedule schedule = Schedule::Auto;

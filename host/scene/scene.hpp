@@ -71,6 +71,7 @@ struct Material {
     float iridescence = 0.0F, iridescenceIor = 1.3F;
     float iridescenceThicknessMinimum = 100.0F, iridescenceThicknessMaximum = 400.0F;  // nm
     std::array<std::uint32_t, 2> uvSets{0, 1};  // the sets of the file that uv0 and uv1 of the material's meshes are
+    bool isCatcher = false;                     // of shadows: pictures show what it is like beside what it would be without the rest
     bool unlit = false;                         // _unlit: the base colour, for the camera alone
     bool glossy = false;                        // _pbrSpecularGlossiness: specularColor is F0, and roughness the glossiness
     std::array<std::optional<Texture>, std::size(kTextureSlots)> textures;  // at kSlotBaseColor ...

@@ -40,6 +40,12 @@ float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool
 // go the other way. A path from a light meets both (light_traversal.glsl).
 const uint kFronts = 1u;
 const uint kBacks = 2u;
+// With them: rays pass what has kObjectBit (catcher.glsl).
+const uint kWithoutObjects = 4u;
+
+#define sidesAlone(sides) (hasFeature(kFeatureCatcher) ? (sides) & (kFronts | kBacks) : (sides))
+#define passesObject(ref, sides) \
+    (hasFeature(kFeatureCatcher) && ((ref).t1.w & kObjectBit) != 0u && ((sides) & kWithoutObjects) != 0u)
 
 // The far side, which a ray meets from within, if the near one does not count.
 float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource, uint sides)
@@ -60,6 +66,10 @@ float intersectSphere(TraversalRay traversal, PrimitiveRef ref, float tMax, bool
 // leaves the sides as they are: a mirrored front stays the front.
 TriangleHit intersectShape(TraversalRay traversal, PrimitiveRef ref, float tMax, bool isSource, uint sides)
 {
+    if (passesObject(ref, sides)) {
+        return kNoTriangleHit;
+    }
+    sides = sidesAlone(sides);
     if (isSphere(ref)) {
         return TriangleHit(intersectSphere(traversal, ref, tMax, isSource, sides), vec2(0.0), 1.0);
     }
@@ -184,8 +194,8 @@ void intersectPrimitive(TraversalRay traversal, InstanceOffsets offsets, uint in
     TriangleHit hit = intersectShape(traversal, ref, best.hit.t, primitive == source, query.sides);
     bool counts = true;
     if (mayContinue(query)) {
-        if (isSphere(ref) && !isAfter(query, hit.t, primitive)) {
-            hit = TriangleHit(intersectSphere(traversal, ref, best.hit.t, true, query.sides), vec2(0.0), 1.0);  // the far side
+        if (isSphere(ref) && !isAfter(query, hit.t, primitive) && !passesObject(ref, query.sides)) {
+            hit = TriangleHit(intersectSphere(traversal, ref, best.hit.t, true, sidesAlone(query.sides)), vec2(0.0), 1.0);  // the far side
         }
         counts = isAfter(query, hit.t, primitive) && primitive != query.target && (hasAlpha(ref) || !query.alphaOnly);
     }

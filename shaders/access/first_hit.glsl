@@ -15,7 +15,8 @@ FirstHit makeNoFirstHit()
 FirstHit makeFirstHit(SurfaceInteraction si, MaterialData material, vec3 wo)
 {
     float depth = depthFromCamera(render.camera, kProjection, si.p);
-    return FirstHit(material.baseColor, 1.0, visibleNormal(si, wo), depth);
+    bool isCatcher = hasFeature(kFeatureCatcher) && (material.flags & kCatcher) != 0u;
+    return FirstHit(material.baseColor, isCatcher ? -1.0 : 1.0, visibleNormal(si, wo), depth);
 }
 
 #endif

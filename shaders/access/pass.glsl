@@ -50,8 +50,23 @@ uint getFirstSample(uint i)
     return kChosen ? chosenPixels[pass.firstPixel + i].samplesBefore + pass.firstSample : pass.firstSample;
 }
 
+uint samplesOfPass()
+{
+    return pass.pixelCount * pass.sampleCount;
+}
+
+// Paths of a pass. With kFeatureCatcher each sample has another one, whose slot is that of the first plus samplesOfPass()
+// (access/catcher.glsl).
+uint slotsOfPass()
+{
+    return hasFeature(kFeatureCatcher) ? 2u * samplesOfPass() : samplesOfPass();
+}
+
 SampleId makeSampleId(uint slot)
 {
+    if (hasFeature(kFeatureCatcher) && slot >= samplesOfPass()) {
+        slot -= samplesOfPass();
+    }
     uint pixel = slot / pass.sampleCount;
     return SampleId(render.seed, pass.tileBegin + getPassPixel(pixel),
                     getFirstSample(pixel) + (slot - pixel * pass.sampleCount));

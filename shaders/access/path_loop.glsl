@@ -1,7 +1,7 @@
 // The loop of the kernels that trace paths to their end. A thread takes entries of the queue, one after the other. Paths beyond its limits
 // go into the next queue as they are.
 // A kernel includes this behind its struct Path, which has at least slot, ray, state and light. It defines the functions that are declared
-// here, and the constants kPathSides and kConnectionSides (of single-sided surfaces, for the path's rays and for those that connect it to a
+// here, the macros pathSides and connectionSides (of single-sided surfaces, for the path's rays and for those that connect it to a
 // light or to the camera), kSeenByCamera (what these meet is seen by it) and kDimmingFeatures (with which surfaces on the way dim the
 // path).
 #ifndef GLIM_ACCESS_PATH_LOOP
@@ -37,11 +37,11 @@ void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pix
                      inout TracedRay traced)
 {
     bool metAlpha;
-    bool clear = isUnoccluded(ray, kConnectionSides, steps, metAlpha);
+    bool clear = isUnoccluded(ray, connectionSides(path), steps, metAlpha);
     uint pathLength = path.state.bounce + 1u;
     ++work.shadow;
     if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        traced = TracedRay(makeAlphaRay(ray, kConnectionSides), contribution, pixel, pathLength);
+        traced = TracedRay(makeAlphaRay(ray, connectionSides(path)), contribution, pixel, pathLength);
         traced.alphaRay.fromCamera = kSeenByCamera;
     } else if (clear) {
         addLight(path, pixel, contribution, pathLength);
@@ -53,7 +53,7 @@ bool advance(inout Path path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
     TracedRay traced = TracedRay(makeAlphaRay(path.ray), vec3(0.0), 0u, 0u);
-    traced.alphaRay.query.sides = kPathSides;
+    traced.alphaRay.query.sides = pathSides(path);
     bool alive = false;
     bool again = false;
     do {

@@ -58,6 +58,18 @@ LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uin
     return sampleChosenLight(id, choice, context, bounce);
 }
 
+// If --catcher-reflections are off, a path that met a catcher first brings nothing back from objects. `arrivedIn`: media of the ray that has
+// met the surface.
+void darkenObject(SurfaceInteraction si, uint bounce, uint arrivedIn, inout VertexResult result)
+{
+    bool isCatcher = result.firstHit.alpha < 0.0;
+    bool remembers = bounce == 0u ? isCatcher && render.darkensObjects != 0u : (arrivedIn & kIsCatcherFirst) != 0u;
+    bool isDark = remembers && !isCatcher && si.light == 0u;
+    result.ray.media |= remembers ? kIsCatcherFirst : 0u;
+    result.hasShadowRay = result.hasShadowRay && !isDark;
+    result.hasNextRay = result.hasNextRay && !isDark;
+}
+
 VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state)
 {
     vec3 wo = -ray.direction;
@@ -96,6 +108,9 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     }
     result.state = state;
     result.hasNextRay = state.bounce < render.maxBounces && continuePath(pair.next, u, si, bsdf, ray.media, result.ray, result.state);
+    if (hasFeature(kFeatureCatcher)) {
+        darkenObject(si, state.bounce, arrivedIn, result);
+    }
     return result;
 }
 

@@ -139,6 +139,7 @@ void storeShadowRay(uint slot, ShadowRay ray)
 DECLARE(, kBindBlocks, BlockSums, filmBlocks);
 DECLARE(, kBindPages, PixelMoments, filmPages);
 DECLARE(, kBindBrightest, BrightestSample, filmBrightest);
+DECLARE(, kBindCatchers, CatcherSums, filmCatchers);
 #endif
 
 #if defined(UPDATES_LUMINANCE)

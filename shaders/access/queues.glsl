@@ -15,12 +15,12 @@ layout(set = 0, binding = kBindRounds, scalar) readonly buffer RoundsBuffer { Ro
 #if defined(READS_ROUNDS) || defined(UPDATES_ROUNDS)
 uint activePaths()
 {
-    return min(rounds[pass.round].paths.count, pass.pixelCount * pass.sampleCount);
+    return min(rounds[pass.round].paths.count, slotsOfPass());
 }
 
 uint activeShadowRays()
 {
-    return min(rounds[pass.round].shadowRays.count, pass.pixelCount * pass.sampleCount);
+    return min(rounds[pass.round].shadowRays.count, slotsOfPass());
 }
 
 // One thread of a dispatch calls this. A kernel queues each slot at most once, so a longer queue has lost entries or counted some twice.

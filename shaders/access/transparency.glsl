@@ -144,21 +144,33 @@ VisibleHit traceThroughAlpha(SampleId id, uint bounce, AlphaRay alphaRay, inout 
     return VisibleHit(hit, weight);
 }
 
+VisibleHit traceVisible(SampleId id, uint bounce, PathRay ray, uint sides, inout Steps steps)
+{
+    AlphaRay alphaRay = makeAlphaRay(ray);
+    alphaRay.query.sides = sides;
+    return traceThroughAlpha(id, bounce, alphaRay, steps);
+}
+
 VisibleHit traceVisible(SampleId id, uint bounce, PathRay ray, inout Steps steps)
 {
-    return traceThroughAlpha(id, bounce, makeAlphaRay(ray), steps);
+    return traceVisible(id, bounce, ray, kFronts, steps);
 }
 
 // What the shadow ray's way lets through, per channel, in [0, 1].
-vec3 transmittance(ShadowRay ray)
+vec3 transmittance(ShadowRay ray, uint sides)
 {
     Steps uncounted = Steps(0u, 0u);
     bool metAlpha;
-    vec3 clear = vec3(isUnoccluded(ray, kFronts, uncounted, metAlpha) ? 1.0 : 0.0);
+    vec3 clear = vec3(isUnoccluded(ray, sides, uncounted, metAlpha) ? 1.0 : 0.0);
     if (hasFeature(kFeatureAlpha) && metAlpha && clear.x > 0.0) {
-        clear = traceThroughAlpha(SampleId(0u, 0u, 0u), 0u, makeAlphaRay(ray, kFronts), uncounted).weight;
+        clear = traceThroughAlpha(SampleId(0u, 0u, 0u), 0u, makeAlphaRay(ray, sides), uncounted).weight;
     }
     return clear;
+}
+
+vec3 transmittance(ShadowRay ray)
+{
+    return transmittance(ray, kFronts);
 }
 
 bool isClear(vec3 clear)

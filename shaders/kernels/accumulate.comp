@@ -16,9 +16,14 @@
 #include "lib/moments.glsl"
 #include "lib/sampler.glsl"
 
+float coverageOf(FirstHit first)
+{
+    return hasFeature(kFeatureCatcher) ? abs(first.alpha) : first.alpha;
+}
+
 BlockSums addSample(BlockSums sums, PathRadiance path, FirstHit first)
 {
-    return BlockSums(sums.count + 1u, sums.radiance + path.radiance, sums.alpha + first.alpha, sums.albedo + first.albedo,
+    return BlockSums(sums.count + 1u, sums.radiance + path.radiance, sums.alpha + coverageOf(first), sums.albedo + first.albedo,
                      sums.normal + first.normal, min(sums.depth, first.depth), sums.clamped + path.clamped);
 }
 
@@ -41,15 +46,22 @@ PassPixel passPixel(uint pixel)
     return PassPixel(pixel, every ? pixel : getPassPixel(pixel), every ? pass.firstSample : getFirstSample(pixel));
 }
 
-BlockSums addFinished(PassPixel from, uint i, BlockSums sums)
+BlockSums addFinished(PassPixel from, uint i, BlockSums sums, inout CatcherSums caught)
 {
     uint slot = from.pixel * pass.sampleCount + i;
     PathRadiance path = fetchRadiance(slot);
-    if (!isFinite(path.radiance)) {
+    PathRadiance without = PathRadiance(vec3(0.0), 0.0);
+    if (hasFeature(kFeatureCatcher)) {
+        without = fetchRadiance(slot + samplesOfPass());
+    }
+    if (!isFinite(path.radiance) || !isFinite(without.radiance)) {
         reportNonFinite(pass.tileBegin + from.at, from.firstSample + i);
         return sums;
     }
     FirstHit first = fetchFirstHit(slot);
+    if (hasFeature(kFeatureCatcher) && first.alpha < 0.0) {
+        caught = CatcherSums(caught.share + 1.0, caught.with + path.radiance, caught.without + without.radiance, caught.page);
+    }
     if (kSuspects) {
         keepBrightest(from.at, computeLuminance(path.radiance), from.firstSample + i);
     }
@@ -69,20 +81,30 @@ void addPixel(PassPixel from)
     if (sums.count == 0u) {
         sums = emptyBlock();  // the host fills new blocks with zeros
     }
+    CatcherSums caught;
+    if (hasFeature(kFeatureCatcher)) {
+        caught = filmCatchers[from.at];
+    }
     // One iteration more than there are samples, for the block that ends with the pass. So the code that folds into the page exists once;
     // CPU drivers compile a load and a store for each of its words, at some 10 ms each.
     for (uint i = 0u; i <= pass.sampleCount; ++i) {
         bool ends = (pass.accumulate & kEndsBlock) != 0u;
         if (i < pass.sampleCount) {
-            sums = addFinished(from, i, sums);
+            sums = addFinished(from, i, sums, caught);
             ends = endsBlock(from, i);
         }
         if (ends) {
+            if (hasFeature(kFeatureCatcher)) {
+                caught = foldCatcher(caught, sums.count);
+            }
             filmPages[from.at] = foldMoments(filmPages[from.at], computeBlockMoments(sums));
             sums = emptyBlock();
         }
     }
     filmBlocks[from.at] = sums;
+    if (hasFeature(kFeatureCatcher)) {
+        filmCatchers[from.at] = caught;
+    }
 }
 
 void main()

@@ -35,7 +35,7 @@ void main()
         if (slot == 0u) {
             rounds[pass.round].paths = Queue(0u, uvec3(0u, 1u, 1u));
         }
-    } else if (slot < pass.pixelCount * pass.sampleCount) {
+    } else if (slot < slotsOfPass()) {
         SampleId id = makeSampleId(slot);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);

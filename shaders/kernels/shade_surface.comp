@@ -15,6 +15,7 @@
 #define WRITES_SHADOW_QUEUE
 #define WRITES_NEXT_QUEUE
 #define UPDATES_ROUNDS
+#include "access/catcher.glsl"
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
 #include "access/status.glsl"
@@ -34,6 +35,9 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
     VertexResult vertex = shadeSurface(makeSampleId(slot), ray, hit, state);
     if (pass.bounce == 0u) {
         storeFirstHit(slot, vertex.firstHit);
+    }
+    if (hasFeature(kFeatureCatcher) && endsAtObject(slot, pass.bounce, vertex.firstHit)) {
+        return;
     }
     if (hasEmissiveSurfaces()) {
         addRadiance(slot, vertex.emitted, pass.bounce);

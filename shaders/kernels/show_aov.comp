@@ -32,7 +32,7 @@ vec3 getAov(uint slot)
 void main()
 {
     uint slot = interleavedInvocation();
-    if (slot < pass.pixelCount * pass.sampleCount) {
+    if (slot < samplesOfPass()) {
         storeRadiance(slot, PathRadiance(getAov(slot), 0.0));
     }
     checkLoopBudget(render.canarySteps);

@@ -8,6 +8,7 @@
 #define WRITES_HITS
 #define UPDATES_STATES
 #define UPDATES_RAY_COUNTS
+#include "access/catcher.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
@@ -22,7 +23,7 @@ void main()
     if (entry < activePaths()) {
         uint slot = activeQueue[entry];
         Steps uncounted = Steps(0u, 0u);
-        VisibleHit visible = traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), uncounted);
+        VisibleHit visible = traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), sidesOfRay(slot, pass.bounce), uncounted);
         storeHit(slot, visible.hit);
         if (hasFeature(kFeatureThinWalls)) {
             stateWords[2u * slot].xyz = floatBitsToUint(fetchState(slot).throughput * visible.weight);

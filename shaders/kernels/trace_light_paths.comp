@@ -27,7 +27,8 @@ struct Path {
     float range;
 };
 
-const uint kPathSides = kFronts | kBacks, kConnectionSides = kBacks;
+#define pathSides(path) (kFronts | kBacks)
+#define connectionSides(path) kBacks
 const bool kSeenByCamera = true;
 const FeatureMask kDimmingFeatures = kFeatureThinWalls | kFeatureSingleSided;
 

@@ -11,6 +11,7 @@
 #define WRITES_NEXT_QUEUE
 #define UPDATES_ROUNDS
 #define UPDATES_RAY_COUNTS
+#include "access/catcher.glsl"
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
 #include "access/traverse.glsl"
@@ -23,7 +24,8 @@ struct Path {
     PathRadiance light;
 };
 
-const uint kPathSides = kFronts, kConnectionSides = kFronts;
+#define pathSides(path) sidesOfRay((path).slot, (path).state.bounce)
+#define connectionSides(path) sidesOfRay((path).slot, (path).state.bounce + 1u)
 const bool kSeenByCamera = false;
 const FeatureMask kDimmingFeatures = kFeatureThinWalls;
 
@@ -68,6 +70,9 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
     VertexResult vertex = shadeSurface(path.id, path.ray, hit, path.state);
     if (path.state.bounce == 0u) {
         storeFirstHit(path.slot, vertex.firstHit);
+    }
+    if (hasFeature(kFeatureCatcher) && endsAtObject(path.slot, path.state.bounce, vertex.firstHit)) {
+        return false;
     }
     if (hasEmissiveSurfaces()) {
         addLight(path, 0u, vertex.emitted, path.state.bounce);

@@ -7,6 +7,7 @@
 #define READS_SHADOW_RAYS
 #define UPDATES_RADIANCE
 #define UPDATES_RAY_COUNTS
+#include "access/catcher.glsl"
 #include "access/radiance.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
@@ -21,7 +22,7 @@ void main()
     if (entry < activeShadowRays()) {
         uint slot = shadowQueue[entry];
         ShadowRay ray = fetchShadowRay(slot);
-        vec3 clear = transmittance(ray);
+        vec3 clear = transmittance(ray, sidesOfRay(slot, pass.bounce + 1u));
         if (isClear(clear)) {
             addRadiance(slot, attenuate(ray.contribution, clear), pass.bounce + 1u);
         }

@@ -18,4 +18,12 @@ PixelMoments computeBlockMoments(BlockSums sums)
                         sums.albedo * share, sums.normal * share, sums.depth, sums.clamped * share);
 }
 
+// Moves a block to the page. count: of its samples.
+CatcherSums foldCatcher(CatcherSums sums, uint count)
+{
+    float share = count > 0u ? 1.0 / float(count) : 0.0;
+    CatcherMoments block = CatcherMoments(count, sums.share * share, sums.with * share, sums.without * share, vec3(0.0));
+    return CatcherSums(0.0, vec3(0.0), vec3(0.0), foldMoments(sums.page, block));
+}
+
 #endif

@@ -41,6 +41,7 @@ GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
 GLIM_CONST uint kBindBrightest = 23u;
 GLIM_CONST uint kBindSplats = 39u;
+GLIM_CONST uint kBindCatchers = 56u;
 // pass.glsl
 GLIM_CONST uint kBindChosenPixels = 22u;
 // notes.glsl

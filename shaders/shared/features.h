@@ -45,7 +45,8 @@ GLIM_SHARED_BEGIN
     FEATURE(SingleSided, 33, "single-sided surfaces") /* not there for rays from behind */ \
     FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */ \
     FEATURE(PointColors, 35, "coloured points") /* spheres and lines with colours of their own */ \
-    FEATURE(Lines, 36, "lines") /* with Spheres */
+    FEATURE(Lines, 36, "lines") /* with Spheres */ \
+    FEATURE(Catcher, 37, "shadow catchers")
 // clang-format on
 
 #ifdef __cplusplus

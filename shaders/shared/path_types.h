@@ -2,6 +2,7 @@
 // whole texels, because kernels read them as texels (paths.glsl).
 #ifndef GLIM_SHARED_PATH_TYPES_H
 #define GLIM_SHARED_PATH_TYPES_H
+#include "pixel_moments.h"
 #include "scene_types.h"
 #include "vocabulary.h"
 
@@ -39,7 +40,7 @@ struct PathRadiance {
 
 struct FirstHit {
     vec3 albedo;
-    float alpha;
+    float alpha;  // 1; 0: of a miss; -1: of a shadow catcher
     vec3 normal;
     float depth;
 };
@@ -143,6 +144,13 @@ struct BlockSums {
     float clamped;
 };
 
+// The same of a shadow catcher, and what is known of the pixel.
+struct CatcherSums {
+    float share;  // samples that met it first
+    vec3 with, without;
+    CatcherMoments page;
+};
+
 // Light that light paths have brought to a pixel: 64 bits in two words, the lower one first, so that no order of additions changes a bit.
 struct Splat {
     uvec2 red, green, blue;
@@ -195,6 +203,7 @@ struct RenderParameters {
     uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
     uint firstMedium;                        // texel of the first MediumData
     uint hidesEnvironment;                   // 1: from the camera
+    uint darkensObjects;                     // 1: what a catcher reflects of them is black
     uvec2 environmentSize;                   // texels of the map
     uvec2 environmentCells;                  // of its sampler
     vec2 environmentRotation;                // cosine and sine of its rotation

@@ -42,6 +42,38 @@ GLIM_FUNCTION PixelMoments foldMoments(PixelMoments a, PixelMoments b)
     return sum;
 }
 
+// What a pixel shows of shadow catchers: light of samples that met one first, over all samples, with the objects and without them.
+struct CatcherMoments {
+    uint count;   // samples
+    float share;  // of them met a catcher first
+    vec3 with, without;
+    vec3 squares;  // as in PixelMoments: of the luminance with, without, and of their difference
+};
+
+// In float32 on the host too.
+GLIM_FUNCTION float luminanceOfMoments(vec3 c) { return (c.x * 0.2126f + c.y * 0.7152f) + c.z * 0.0722f; }
+
+GLIM_FUNCTION CatcherMoments foldMoments(CatcherMoments a, CatcherMoments b)
+{
+    if (a.count == 0u) {
+        return b;
+    }
+    if (b.count == 0u) {
+        return a;
+    }
+    CatcherMoments sum = a;
+    sum.count = a.count + b.count;
+    float share = float(b.count) / float(sum.count);
+    vec3 with = b.with - a.with;
+    vec3 without = b.without - a.without;
+    vec3 delta = vec3(luminanceOfMoments(with), luminanceOfMoments(without), luminanceOfMoments(without - with));
+    sum.share = a.share + (b.share - a.share) * share;
+    sum.with = a.with + with * share;
+    sum.without = a.without + without * share;
+    sum.squares = (a.squares + b.squares) + (delta * delta) * (float(a.count) * share);
+    return sum;
+}
+
 // Luminance (Rec.709) of a pixel's samples, for adaptive sampling.
 struct LuminanceMoments {
     uint count;

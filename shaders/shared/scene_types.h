@@ -43,7 +43,8 @@ GLIM_CONST uint kSphereBit = 0x80000000u;
 GLIM_CONST uint kSliverBit = 0x40000000u;       // thinner than kSliverHeight; with kSphereBit: a line
 GLIM_CONST uint kAlphaBit = 0x20000000u;        // neither opaque all over nor transparent all over
 GLIM_CONST uint kSingleSidedBit = 0x10000000u;  // not there for rays from behind
-GLIM_CONST uint kMaterialMask = 0x0fffffffu;
+GLIM_CONST uint kObjectBit = 0x08000000u;       // of scenes with catchers: neither a catcher nor a light
+GLIM_CONST uint kMaterialMask = 0x07ffffffu;
 // Below this ratio of height to longest side, a triangle's edge functions are corrected by the rounding errors of their products.
 // Uncorrected, each is off by up to 2^-23 of that side's square, so that above this ratio a hit moves by less than 2^-11 of the side.
 GLIM_CONST float kSliverHeight = 9.765625e-4f;
@@ -95,13 +96,14 @@ GLIM_CONST uint kDoubleSided = 1u;  // emits from both sides
 GLIM_CONST float kCoverage = -1.0;  // alpha is the share of light that the surface meets
 GLIM_CONST float kOpaque = -2.0;    // alpha is 1, whatever textures say
 GLIM_CONST uint kThinWall = 2u;     // light passes it straight (access/transparency.glsl): it is smooth and has no medium
+GLIM_CONST uint kCatcher = 4u;      // of shadows (access/catcher.glsl)
 
 struct MaterialData {
     vec3 baseColor;
     uint type;          // kLambert ...
     vec3 emission;      // radiance, W/(sr m^2)
     float ior;          // of a solid that transmits
-    uint flags;         // kDoubleSided | kThinWall
+    uint flags;         // kDoubleSided | kThinWall | kCatcher
     uint principled;    // texel of its PrincipledData, if it has one
     float alpha;        // of primitives with kAlphaBit, before textures
     float alphaCutoff;  // of those: below it they are transparent, else opaque; or kCoverage or kOpaque

@@ -1,6 +1,7 @@
 // The kernel itself. It counts and locates samples that are not finite, and adds them to no sum. In adaptive renders it adds to
 // the chosen pixels. With --suspects it keeps the brightest sample of each pixel.
 #include "host/gpu/commands.hpp"
+#include "host/render/kernel_set.hpp"
 #include "host/render/path_buffers.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
@@ -35,8 +36,9 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
                    const std::vector<BrightestSample>& brightest = {})
 {
     const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
-    const Kernel kernel(layout, kernels::accumulate,
-                        {{kSpecWorkgroup, 64}, {kSpecChosen, !chosen.empty()}, {kSpecSuspects, !brightest.empty()}});
+    Specialization constants = makeConstants(0);
+    constants.insert({{kSpecWorkgroup, 64}, {kSpecChosen, !chosen.empty()}, {kSpecSuspects, !brightest.empty()}});
+    const Kernel kernel(layout, kernels::accumulate, constants);
     const Kernel luminance(layout, kernels::course_add_luminance, {{kSpecWorkgroup, 64}, {kSpecChosen, !chosen.empty()}});
     Buffer list(testDevice(), "test's choice", BufferKind::Storage, sizeof(uint) + kPixels * sizeof(ChosenPixel));
     std::vector<uint> counted{kPixels};

@@ -1,5 +1,6 @@
 // H26, H27: 1e5 samples of a pixel through the kernel that adds them up.
 #include "host/gpu/commands.hpp"
+#include "host/render/kernel_set.hpp"
 #include "host/render/path_buffers.hpp"
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
@@ -27,7 +28,9 @@ using Samples = std::vector<PathRadiance>;  // of one block of all pixels
 
 void runTurns(const KernelLayout& layout, const std::deque<Bindings>& bindings)
 {
-    const Kernel kernel(layout, kernels::accumulate, {{kSpecWorkgroup, 64}});
+    Specialization constants = makeConstants(0);
+    constants[kSpecWorkgroup] = 64;
+    const Kernel kernel(layout, kernels::accumulate, constants);
     Pass pass{};
     pass.pixelCount = kPixels;
     pass.firstSample = pass.sampleCount = kBlockSamples;

@@ -21,6 +21,8 @@ constexpr int kBlocks = 8;
 struct Case {
     BlockSums blocks[kBlocks];
     PixelMoments expected;
+    CatcherSums catchers[kBlocks]{};
+    CatcherMoments expectedCatcher{};
 };
 
 BlockSums sumOf(const std::function<float()>& sample, std::uint32_t count)
@@ -38,6 +40,13 @@ BlockSums sumOf(const std::function<float()>& sample, std::uint32_t count)
         sums.clamped += 0.25F * x;
     }
     return sums;
+}
+
+// A block of a catcher: samples that met it first, and the light of some.
+CatcherMoments momentsOf(const CatcherSums& sums, std::uint32_t count)
+{
+    const float share = count > 0 ? 1.0F / static_cast<float>(count) : 0.0F;
+    return {count, sums.share * share, sums.with * share, sums.without * share, vec3(0.0F)};
 }
 
 PixelMoments momentsOf(const BlockSums& sums)
@@ -64,6 +73,12 @@ TEST(MomentsTest, DeviceAndHostFoldToTheSameBits)
             folded = foldMoments(folded, momentsOf(block));
         }
         c.expected = folded;
+        for (int i = 0; i < kBlocks; ++i) {
+            c.catchers[i].share = static_cast<float>(c.blocks[i].count / 2);
+            c.catchers[i].with = c.blocks[i].radiance;
+            c.catchers[i].without = vec3(3.0F, 2.0F, 1.0F) * c.blocks[i].radiance + value(random);
+            c.expectedCatcher = foldMoments(c.expectedCatcher, momentsOf(c.catchers[i], c.blocks[i].count));
+        }
     }
     KernelTest(test_kernels::moments_test).cases(cases).run();
 }

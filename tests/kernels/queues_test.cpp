@@ -35,6 +35,7 @@ Outcome run(std::uint32_t threads, std::uint32_t share, std::uint32_t round, con
     test.cases(std::vector<uint>(threads, share));
     test.pass().sampleCount = 1;
     test.pass().round = round;
+    test.features(kAllFeatures & ~kFeatureCatcher);  // a path for each sample
     BufferMap bound = paths.buffers(0);
     bound[kBindRayCounts] = &countsBuffer;
     bound[kBindStatus] = &status;

@@ -11,6 +11,7 @@ struct Case {
     vec3 direction;  // unit
     uint target;
     float tMax;  // the shadow ray's
+    uint sides;
 };
 
 struct Result {
@@ -27,8 +28,9 @@ void main()
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
         Steps steps = Steps(0u, 0u);
-        VisibleHit visible = traceVisible(SampleId(render.seed, 0u, TEST_THREAD), 1u, PathRay(c.origin, c.source, c.direction, 0u), steps);
-        vec3 clear = transmittance(ShadowRay(c.origin, c.source, c.direction, c.target, vec3(1.0), c.tMax));
+        VisibleHit visible = traceVisible(SampleId(render.seed, 0u, TEST_THREAD), 1u, PathRay(c.origin, c.source, c.direction, 0u), c.sides,
+                                          steps);
+        vec3 clear = transmittance(ShadowRay(c.origin, c.source, c.direction, c.target, vec3(1.0), c.tMax), c.sides);
         results[TEST_THREAD] = Result(primitiveMet(visible.hit), visible.weight, clear);
     }
     endTest();

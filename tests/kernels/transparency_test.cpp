@@ -17,6 +17,7 @@ struct Case {
     vec3 direction;
     uint target;
     float tMax;
+    uint sides = 1;  // kFronts
 };
 
 struct Result {
@@ -56,9 +57,9 @@ std::size_t cardOf(uint primitive) { return primitive / 2; }
 
 const Case kThrough{{0, 0.3F, 0.1F}, kNoPrimitive, {1, 0, 0}, kNoPrimitive, 4.5F};
 
-std::vector<Result> trace(const std::vector<Case>& cases)
+std::vector<Result> trace(const std::vector<Case>& cases, const Scene& of = cards())
 {
-    const SceneOnDevice scene(cards());
+    const SceneOnDevice scene(of);
     KernelTest test = scene.test(test_kernels::transparency_test);
     test.cases(cases).resultsOf<Result>(cases.size()).run();
     return test.results<Result>();
@@ -115,6 +116,47 @@ TEST(TransparencyTest, SourceAndTargetDoNotCount)
     leaving.tMax = 1.5F;
     leaving.source = half;
     EXPECT_FLOAT_EQ(clearOf(leaving), 0.5F);
+}
+
+// A card and a ball, which are objects, then a lamp and a shadow catcher.
+Scene objectsBeforeACatcher(bool alpha)
+{
+    SceneBuilder builder;
+    const auto quad = [&builder](float x, std::uint32_t material) {
+        builder.quad({glm::vec3(x, -1, -1), {x, 1, -1}, {x, 1, 1}, {x, -1, 1}}, material);
+    };
+    Material card = makeLambert(glm::vec3(0.5F), glm::vec3(0.0F), true), catcher = card;
+    card.alphaMode = alpha ? AlphaMode::Blend : AlphaMode::Opaque;
+    card.alpha = 0.5F;
+    catcher.isCatcher = true;
+    quad(1.0F, builder.add(card));
+    quad(4.0F, builder.lambert(glm::vec3(0.5F), glm::vec3(1.0F), true));
+    quad(5.0F, builder.add(catcher));
+    builder.sphere({2.0F, 0.2F, 0.0F}, 0.5F, builder.lambert(glm::vec3(0.5F)));
+    return builder.scene();
+}
+
+TEST(TransparencyTest, RaysWithoutObjectsMeetLampsAndCatchersAlone)
+{
+    constexpr uint kAll = 1, kWithout = 5;  // kFronts, and kWithoutObjects
+    constexpr uint kLamp = 2, kCatcher = 4, kBall = 6;
+    for (const bool alpha : {false, true}) {
+        const Case all{{0, 0.3F, 0.1F}, kNoPrimitive, {1, 0, 0}, kNoPrimitive, 3.5F, kAll};
+        Case without = all, farther = all, within = all, behind = all;
+        without.sides = farther.sides = within.sides = behind.sides = kWithout;
+        farther.tMax = 4.5F;                 // past the lamp
+        within.origin = {2.0F, 0.2F, 0.0F};  // of the ball
+        within.source = kBall;
+        behind.origin.x = 4.5F;
+        const std::vector<Result> results = trace({all, without, farther, within, behind}, objectsBeforeACatcher(alpha));
+        EXPECT_LT(results[0].met == kBall ? 0 : results[0].met, kLamp);
+        EXPECT_EQ(results[0].clear, vec3(0.0F));
+        EXPECT_EQ(results[1].met & ~1U, kLamp);
+        EXPECT_EQ(results[1].clear, vec3(1.0F));
+        EXPECT_EQ(results[2].clear, vec3(0.0F));
+        EXPECT_EQ(results[3].met & ~1U, kLamp);
+        EXPECT_EQ(results[4].met & ~1U, kCatcher);
+    }
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings
     Renderer renderer(testDevice(), flat, camera, settings);
     std::vector<Film> films;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
-        renderer.restart(camera, seed);
+        renderer.restart(camera, settings.seed + seed);
         films.push_back(renderer.render([](const RenderProgress&) { return true; }));
     }
     return films;
@@ -143,9 +143,10 @@ void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
 
 bool sameBits(const Film& a, const Film& b)
 {
-    return a.pixels.size() == b.pixels.size() && a.splats.size() == b.splats.size() &&
+    return a.pixels.size() == b.pixels.size() && a.splats.size() == b.splats.size() && a.catcher.size() == b.catcher.size() &&
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0 &&
-           (a.splats.empty() || std::memcmp(a.splats.data(), b.splats.data(), a.splats.size() * sizeof(SplatMoments)) == 0);
+           (a.splats.empty() || std::memcmp(a.splats.data(), b.splats.data(), a.splats.size() * sizeof(SplatMoments)) == 0) &&
+           (a.catcher.empty() || std::memcmp(a.catcher.data(), b.catcher.data(), a.catcher.size() * sizeof(CatcherMoments)) == 0);
 }
 
 void expectSameMean(const std::string& name, const Film& a, const Film& b)

@@ -17,7 +17,7 @@ FlatScene flattened(const Scene& scene, SplitRule rule = SplitRule::Sah);
 Film renderScene(const Scene& scene, const RenderSettings& settings);
 Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSettings& settings);
 
-// With seeds 0 to count - 1, by one renderer and one schedule.
+// With `count` seeds from the settings' on, by one renderer and one schedule.
 std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings, std::uint32_t count);
 
 // Square, with samples [0, spp).

@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 434u;
+GLIM_CONST uint kSharedWords = 464u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -32,6 +32,8 @@ struct EverySharedStruct {
     CourseParameters course_;
     PixelMoments pixelMoments;
     LuminanceMoments luminanceMoments;
+    CatcherMoments catcher;
+    CatcherSums catcherSums;
     BrightestSample brightest;
     ChosenPixel chosen;
     MaterialData material;
@@ -93,13 +95,16 @@ F2(parameters.camera.projection.tangential) F(parameters.camera.projection.end)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRef) U(parameters.firstUv) U(parameters.firstTangent)
-U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U2(parameters.environmentSize) U2(parameters.environmentCells)
+U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U(parameters.darkensObjects) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentRotation) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
 F(parameters.splatScale)
 U(course_.refCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
 U(luminanceMoments.count) F(luminanceMoments.mean) F(luminanceMoments.squares) U(luminanceMoments.met)
+U(catcher.count) F(catcher.share) F3(catcher.with) F3(catcher.without) F3(catcher.squares)
+F(catcherSums.share) F3(catcherSums.with) F3(catcherSums.without) U(catcherSums.page.count) F(catcherSums.page.share)
+F3(catcherSums.page.with) F3(catcherSums.page.without) F3(catcherSums.page.squares)
 F(brightest.luminance) U(brightest.sampleIndex)
 U(chosen.pixel) U(chosen.samplesBefore)
 F3(material.baseColor) U(material.type) F3(material.emission) F(material.ior) U(material.flags) U(material.principled) F(material.alpha)

@@ -52,6 +52,7 @@ USERS = {
     "LightsInMedia": [],  # trace_light_paths
     "LargeTriangles": ["trace_closest", "trace_shadow", "shade_surface"],
     "SingleSided": ["trace_closest", "trace_shadow"],
+    "Catcher": ["trace_closest", "trace_shadow", "shade_surface"],
 }
 # What a feature needs before it has any code.
 NEEDS = {

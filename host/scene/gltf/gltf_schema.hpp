@@ -218,6 +218,7 @@ constexpr SchemaRule kSchemaRules[] = {
     schema::numbers("nodes[].scale", 3),
     schema::exact(schema::number("nodes[].extras.sphere.radius", Need::Required, 0)),
     schema::index("nodes[].extras.sphere.material", "materials"),
+    schema::other("materials[].extras.shadowCatcher", JsonKind::Bool),
     schema::other("skins[].name", JsonKind::String),
     schema::other("skins[].joints", JsonKind::Array, Need::Required),
     schema::index("skins[].joints[]", "nodes"),

@@ -288,6 +288,8 @@ Material MaterialReader::read()
     readTransmission(material);
     readLayers(material);
     readGlossiness(material);
+    material.isCatcher =
+        source_.extras.IsObject() && source_.extras.Has("shadowCatcher") && source_.extras.Get("shadowCatcher").Get<bool>();
     material.unlit = source_.extensions.count("KHR_materials_unlit") > 0;
     if (material.unlit) {
         material.emission = glm::vec3(0.0F);
