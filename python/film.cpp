@@ -3,6 +3,7 @@
 #include "host/error.hpp"
 #include "host/measure/error_estimate.hpp"
 #include "host/message.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/layers_file.hpp"
 
@@ -76,6 +77,19 @@ Layer<float> variance(const PythonFilm& film)
     return copied(film.film(), std::move(values), 3);
 }
 
+// Premultiplied RGBA; None without shadow catchers.
+nb::object composite(const PythonFilm& film)
+{
+    if (film.film().catcher.empty()) {
+        return nb::none();
+    }
+    std::vector<float> values;
+    for (const PixelMoments& pixel : pictureOf(film.film())) {
+        values.insert(values.end(), {pixel.mean.r, pixel.mean.g, pixel.mean.b, pixel.alpha});
+    }
+    return nb::cast(copied(film.film(), std::move(values), 4));
+}
+
 nb::object ids(nb::handle self)
 {
     const PythonFilm& film = nb::cast<const PythonFilm&>(self);
@@ -146,9 +160,10 @@ Film shrunk(const Film& film, std::uint32_t most)
     small.showsBackground = film.showsBackground;
     small.pixels.resize(std::size_t{small.width} * small.height);
     std::vector<std::uint32_t> counts(small.pixels.size());
+    const std::vector<PixelMoments> pixels = pictureOf(film);
     for (std::uint32_t y = 0; y < film.height; ++y) {
         for (std::uint32_t x = 0; x < film.width; ++x) {
-            const PixelMoments pixel = shownPixel(film, std::size_t{y} * film.width + x);
+            const PixelMoments& pixel = pixels[std::size_t{y} * film.width + x];
             const std::size_t to = std::size_t{std::min(y / side, small.height - 1)} * small.width + std::min(x / side, small.width - 1);
             const float share = 1.0F / static_cast<float>(++counts[to]);
             PixelMoments& mean = small.pixels[to];
@@ -261,6 +276,8 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("depth", floats(&PixelMoments::depth, 1), own)
         .def_prop_ro("count", &counts, own)
         .def_prop_ro("variance", &variance, own)
+        .def_prop_ro("composite", &composite)
+        .def_prop_ro("alpha_rmse", [](const PythonFilm& film) { return computeAlphaRmse(film.film()); })
         .def_prop_ro("ids", &ids)
         .def_prop_ro("surfaces", &surfaces)
         .def_prop_ro("objects", &PythonFilm::objects)

@@ -353,6 +353,29 @@ std::string describeSun(const Sun& sun)
     return exactText(sun.azimuth) + "," + exactText(sun.elevation) + "," + exactText(sun.irradiance);
 }
 
+std::optional<double> parseFloorHeight(const OptionValue& value)
+{
+    double height = 0.0;
+    if (value.text() == "lowest") {
+        return std::nullopt;
+    }
+    const bool isNumber = parseNumber(value.text(), height);
+    if (!isNumber || !(std::abs(height) <= 1e9)) {
+        refuseValue("--floor", value.text(), isNumber, "lowest, or a height within 1e9 metres of 0, as in 0.5");
+    }
+    return height;
+}
+
+glm::vec3 parseReflectance(const std::string& option, const OptionValue& value)
+{
+    glm::vec3 color(0.0F);
+    const bool isTriple = parseTriple(value, color);
+    if (!isTriple || glm::any(glm::lessThan(color, glm::vec3(0.0F))) || glm::any(glm::greaterThan(color, glm::vec3(1.0F)))) {
+        refuseValue(option, value.text(), isTriple, "three numbers from 0 to 1, as in 0.8,0.5,0.1");
+    }
+    return color;
+}
+
 glm::vec3 parseRadiance(const OptionValue& value)
 {
     const std::string text = value.text();

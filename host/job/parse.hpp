@@ -40,9 +40,11 @@ EnvironmentChoice parseEnvironment(const OptionValue& value);
 std::string describeEnvironment(const EnvironmentChoice& choice);
 Sun parseSun(const OptionValue& value);  // "30,45,1000"
 std::string describeSun(const Sun& sun);
-glm::vec3 parseRadiance(const OptionValue& value);  // "1,1,1", >= 0; a file is refused
-Edit parseEdit(const OptionValue& value);           // "POINTER=VALUE", or a value whose key is the pointer
-Addition parseAddition(const OptionValue& value);   // "FILE", "FILE@x,y,z", or numbers whose key is the file
+std::optional<double> parseFloorHeight(const OptionValue& value);                 // "0.5"; nothing for "lowest"
+glm::vec3 parseReflectance(const std::string& option, const OptionValue& value);  // "0.8,0.5,0.1"
+glm::vec3 parseRadiance(const OptionValue& value);                                // "1,1,1", >= 0; a file is refused
+Edit parseEdit(const OptionValue& value);                                         // "POINTER=VALUE", or a value whose key is the pointer
+Addition parseAddition(const OptionValue& value);                                 // "FILE", "FILE@x,y,z", or numbers whose key is the file
 std::string describeAddition(const Addition& addition);
 SamplePlace parseSample(const OptionValue& value);                           // "12,40,7"
 glm::dvec3 parsePoint(const std::string& option, const OptionValue& value);  // "1,2.5,-3"

@@ -23,6 +23,23 @@ void addRoulette(OptionTable& table, RenderSettings& settings)
               });
 }
 
+void addFloor(OptionTable& table, PictureOptions& options)
+{
+    const auto floor = [&options]() -> SceneFloor& { return options.floor ? *options.floor : options.floor.emplace(); };
+    table.add("--floor", "Y|lowest", "A floor at the height Y, in metres, or at the lowest point of the scene",
+              [floor](const OptionValue& value) { floor().height = parseFloorHeight(value); });
+    table.add("--floor-color", "R,G,B", "Its colour, linear Rec.709 [0.8,0.8,0.8]",
+              [floor](const OptionValue& value) { floor().color = parseReflectance("--floor-color", value); });
+    addNumber<float>(table, {"--floor-roughness", "R", "Its roughness; smooth below 0.03", 0.0F, 1.0F, "matte"},
+                     [floor](float roughness) { floor().roughness = roughness; });
+    addNumber<double>(table, {"--backdrop", "DEG", "A floor that curves up into a wall at DEG right of -z", -360.0, 360.0, "no wall"},
+                      [floor](double degrees) { floor().backdrop = degrees; });
+    addEnum(table, "--catcher-reflections", "B", "Whether catchers reflect objects and their light: on or off [on]", {"off", "on"},
+            options.settings.catcherReflections);
+    table.addEach("--catcher", "NAME", "Material that catches shadows on transparency, as floor; repeatable",
+                  [&options](const OptionValue& value) { options.catchers.push_back(value.text()); });
+}
+
 }  // namespace
 
 void addPicture(OptionTable& table, PictureOptions& options, const std::string& height)
@@ -45,6 +62,7 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
     };
     addRadius("--point-radius", "Radius of points, in metres", options.pointRadius);
     addRadius("--line-radius", "Radius of lines, in metres", options.lineRadius);
+    addFloor(table, options);
     table.addEach("--set", "POINTER=VALUE", "Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });
     table.addEach("--add", "FILE[@x,y,z]", "Another file's shapes and lights, moved by metres or a matrix; repeatable",
@@ -172,6 +190,8 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     load.showsBackFaces = options.showsBackFaces;
     load.pointRadius = options.pointRadius;
     load.lineRadius = options.lineRadius;
+    load.floor = options.floor;
+    load.catchers = options.catchers;
     load.edits = options.edits;
     load.additions = options.additions;
     load.missingTextures = options.missingTextures;

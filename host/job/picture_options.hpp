@@ -31,6 +31,8 @@ struct PictureOptions {
     std::optional<Sun> sun;
     bool showsBackFaces = false;
     std::optional<double> pointRadius, lineRadius;  // of all points and lines, metres
+    std::optional<SceneFloor> floor;
+    std::vector<std::string> catchers;
     std::vector<Edit> edits;
     std::vector<Addition> additions;
     MissingTextures missingTextures = MissingTextures::Refuse;

@@ -7,6 +7,7 @@
 #include "host/render/film_camera.hpp"
 #include "host/render/film_identity.hpp"
 #include "host/render/merge_films.hpp"
+#include "host/render/parameters.hpp"
 #include "host/text.hpp"
 #include "shaders/shared/limits.h"
 
@@ -19,7 +20,13 @@ namespace glim {
 PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
 {
     const Camera camera = makeCamera(session.prepared().scene, options);
-    const RenderSettings settings = settingsFor(options, camera);
+    RenderSettings settings = settingsFor(options, camera);
+    settings.catcher = catches(session.prepared().flat, settings);
+    settings.halves = settings.halves && !settings.catcher;
+    if (settings.catcher && options.target.denoised) {
+        throw InputError(MessageId::Conflict, {part::place("--denoised"), ": films with shadow catchers are not denoised; expected ",
+                                               part::expected("a target for the noisy picture"), "."});
+    }
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings,
@@ -32,7 +39,7 @@ void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame)
     film.camera = frame.description;
     film.crop = frame.crop;
     film.sceneFile = options.scene.string();
-    film.showsBackground = options.environmentBackground;
+    film.showsBackground = options.environmentBackground && film.catcher.empty();
     film.identity.settings += describeCamera(options.pose, options.field, options.lens, options.projection);
 }
 

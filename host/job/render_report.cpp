@@ -3,6 +3,7 @@
 #include "host/job/exposure_advice.hpp"
 #include "host/job/output_file.hpp"
 #include "host/message.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/parameters.hpp"
 #include "host/text.hpp"
@@ -17,6 +18,12 @@
 
 namespace glim {
 namespace {
+
+Json alphaRmseJson(const Film& film)
+{
+    const std::optional<double> error = computeAlphaRmse(film);
+    return error ? Json(*error) : Json(nullptr);
+}
 
 std::uint64_t peakHostMemory()
 {
@@ -205,6 +212,7 @@ Json statisticsOf(const RenderReport& report)
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", report.error ? describeEstimate(*report.error) : Json(nullptr)},
             {"rmseOfMeanBound", boundOf(report)},
+            {"alphaRmse", alphaRmseJson(report.film)},
             {"denoised", report.denoising ? denoisingJson(*report.denoising) : Json(nullptr)},
             {"pixelsWithoutEstimate", pixelsWithoutError(report.film)},
             {"bvh", bvhOf(report)},
@@ -262,6 +270,9 @@ std::string qualityText(const RenderReport& report)
         const Interval& bias = report.bias->bias;
         text += format(", bias %+.2f %% [%+.2f, %+.2f] by %zu control pixels", 100.0 * bias.value, 100.0 * bias.low, 100.0 * bias.high,
                        report.bias->pixels);
+    }
+    if (const std::optional<double> alpha = computeAlphaRmse(report.film)) {
+        text += format(", RMSE of the shadows' alpha %.2g", *alpha);
     }
     if (report.denoising) {
         text += denoisingText(*report.denoising);

@@ -310,7 +310,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
         }
         return std::nullopt;
     }
-    stored.film.showsBackground = options.environmentBackground;  // which films of earlier builds do not say
+    stored.film.showsBackground = options.environmentBackground && stored.film.catcher.empty();  // which films of earlier builds do not say
     const std::optional<Message> difference = findOther(stored.film, session_, frame, options);
     if (difference && options.checkpoint.resume) {
         throw InputError(Message(*difference, {part::file(options.mainFile()), ": cannot be resumed: ", difference->sentence, "."}));
@@ -326,7 +326,7 @@ bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) 
         std::ranges::any_of(std::array{&options.ids, &options.surfaces, &options.objects, &options.stats}, isMissing)) {
         return false;
     }
-    if (!options.denoise) {
+    if (!options.denoise || !stored.film.catcher.empty()) {
         drawFilm(options, stored.film);
     } else if (const auto radiance = readDenoised(*options.output)) {
         drawFilm(options, showDenoised(stored.film, *radiance));
@@ -354,8 +354,9 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     const double writeSeconds = secondsSince(start);
     warnIfUnknown(rendered);
     if (options.denoise && !denoising && !rendered.denoisingError) {
-        say(MessageId::NotDenoised,
-            {"the picture is not denoised: ", watch_->signal() == 0 ? "too few samples were finished" : "the render was ended"});
+        say(MessageId::NotDenoised, {"the picture is not denoised: ", !film.catcher.empty()   ? "it has a shadow catcher"
+                                                                      : watch_->signal() == 0 ? "too few samples were finished"
+                                                                                              : "the render was ended"});
     }
     const std::optional<double> idSeconds = surfaceFiles_.write(session_, options, frame, film);
     // Before the control, whose samples are no suspects.

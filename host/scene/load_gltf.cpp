@@ -14,6 +14,7 @@
 #include "host/scene/gltf/read_lights.hpp"
 #include "host/scene/gltf/read_material.hpp"
 #include "host/scene/join_scenes.hpp"
+#include "host/scene/make_floor.hpp"
 #include "host/scene/make_studio.hpp"
 #include "host/text.hpp"
 
@@ -464,7 +465,8 @@ struct SceneFile::Contents {
 
     FilePart main;
     std::vector<FilePart> added;
-    JoinedMeshes joined;
+    JoinedMeshes joined, joinedFloor;
+    std::optional<Scene> floor;
     std::optional<double> litShare;                         // of the rest pose, so that all frames of an animation have the same light
     std::vector<std::uint32_t> firstNodes, firstMaterials;  // of each part, in the last scene
 
@@ -541,6 +543,41 @@ Scene SceneFile::read(std::optional<double> seconds, Warnings& warnings)
     return scene;
 }
 
+Scene SceneFile::addFloor(Scene scene, bool isPosed)
+{
+    if (!options_.floor) {
+        return scene;
+    }
+    if (!contents_->floor) {
+        Warnings unheard;
+        contents_->floor = makeFloor(*options_.floor, isPosed ? read(std::nullopt, unheard) : scene);
+    }
+    return joinScenes(std::move(scene), {{*contents_->floor, glm::dmat4(1.0)}}, contents_->joinedFloor);
+}
+
+void SceneFile::markCatchers(Scene& scene) const
+{
+    for (const std::string& name : options_.catchers) {
+        bool isFound = false;
+        std::set<std::string> known;
+        for (Material& material : scene.materials) {
+            material.isCatcher = material.isCatcher || material.name == name;
+            isFound = isFound || material.name == name;
+            known.insert(inQuotes(material.name));
+        }
+        if (!isFound) {
+            std::string list;
+            std::size_t listed = 0;
+            for (const std::string& other : known) {
+                list += listed++ < kMaxListed ? (list.empty() ? "" : ", ") + other : "";
+            }
+            throw InputError(MessageId::UnknownName, {part::file(path_), ": ", part::place("--catcher"), " ", part::quoted(name),
+                                                      ": no material has this name; expected ",
+                                                      part::expected("one of " + list + moreThanListed(known.size())), "."});
+        }
+    }
+}
+
 void SceneFile::chooseLight(Scene& scene, bool isPosed, Warnings& warnings)
 {
     // Who gives an environment or a sun has chosen the light.
@@ -578,7 +615,8 @@ Scene SceneFile::sceneAt(std::optional<double> seconds)
         contents_ = std::make_unique<Contents>(path_, options_);
     }
     Warnings warnings;
-    Scene scene = read(seconds, warnings);
+    Scene scene = addFloor(read(seconds, warnings), seconds.has_value());
+    markCatchers(scene);
     checkScene(scene);
     chooseLight(scene, seconds.has_value(), warnings);
     scene.warnings = warnings.messages();
@@ -592,6 +630,7 @@ void SceneFile::edit(const std::vector<Edit>& edits)
     checkFilesOfEdits(path_, options);
     const auto apply = [this](const std::vector<Edit>& all) {
         contents_->litShare.reset();
+        contents_->floor.reset();
         contents_->main.edit(ownEdits(all, options_.additions));
         for (std::size_t i = 0; i < options_.additions.size(); ++i) {
             contents_->added[i].edit(editsOf(all, options_.additions[i]));

@@ -36,6 +36,16 @@ struct Addition {
     bool operator==(const Addition&) const = default;
 };
 
+// A floor under everything, which the scene's file does not have (make_floor.hpp).
+struct SceneFloor {
+    std::optional<double> height;    // metres; if absent the lowest point of the rest pose
+    glm::vec3 color{0.8F};           // linear Rec.709
+    std::optional<float> roughness;  // of a dielectric; if absent the floor is matte
+    std::optional<double> backdrop;  // degrees to the right of -z: there the floor becomes a wall
+
+    bool operator==(const SceneFloor&) const = default;
+};
+
 struct LoadOptions {
     std::optional<std::size_t> scene;              // index into the file's scenes; if absent its default scene, else the first
     std::optional<EnvironmentChoice> environment;  // replaces the file's
@@ -53,6 +63,9 @@ struct LoadOptions {
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera
     float yfov = Camera().yfov;                // of the framed camera
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
+
+    std::optional<SceneFloor> floor;
+    std::vector<std::string> catchers;  // names of materials that are shadow catchers, besides those that files mark
 
     std::vector<Edit> edits;          // of the file, one after the other
     std::vector<Addition> additions;  // in their rest pose
@@ -93,6 +106,9 @@ private:
 
     // Without the light that chooseLight gives it.
     Scene read(std::optional<double> seconds, Warnings& warnings);
+    // The floor, under the rest pose.
+    Scene addFloor(Scene scene, bool isPosed);
+    void markCatchers(Scene& scene) const;
     // The built-in studio, where nothing else would show what is in the scene.
     void chooseLight(Scene& scene, bool isPosed, Warnings& warnings);
     std::string prefixOf(std::size_t part) const;

@@ -158,6 +158,17 @@ class Film:
         return self._native.alpha
 
     @property
+    def composite(self):
+        """(height, width, 4) float32: of scenes with shadow catchers the picture without them but with their shadows, premultiplied RGBA;
+        None of other scenes. rgb and alpha are those of the picture with the catchers."""
+        return self._native.composite
+
+    @property
+    def alpha_rmse(self) -> Optional[float]:
+        """The RMSE of the shadows' alpha in `composite`, estimated; None if it is not known."""
+        return self._native.alpha_rmse
+
+    @property
     def albedo(self):
         """(height, width, 3) float32: mean base colour at the camera rays' hits; a miss counts as 0."""
         return self._native.albedo
@@ -298,7 +309,7 @@ class Film:
         """Writes an EXR with all layers (.exr), which glim.read and `glim merge` read, or with half=True one of RGBA, albedo and normal as
         half floats, and depth, which they do not; an sRGB picture (.png, .jpg, .jpeg or .webp); or the
         arrays of `arrays()` for numpy.load (.npz). A picture's exposure is in stops or "auto", its tone mapping "none", "neutral" or "agx".
-        PNG and WebP have alpha if environment_background was off."""
+        PNG and WebP have alpha if environment_background was off or the scene has shadow catchers."""
         name = path_of(path, "path")
         stops = None if isinstance(exposure, str) and exposure == "auto" else _stops(exposure)
         if not isinstance(tone, str):
@@ -319,9 +330,10 @@ class Film:
 
     def arrays(self) -> Dict[str, Any]:
         """Dense copies of all layers, by name: rgb, alpha, albedo, normal, depth, count and variance, as the properties describe them;
-        denoised, ids.node, ids.mesh and ids.material, and those of `surfaces`, if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
+        composite, denoised, ids.node, ids.mesh and ids.material, and those of `surfaces`, if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
         (4x4, camera to world, glTF's axes)."""
-        layers = {name: getattr(self, name) for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance", "denoised")}
+        layers = {name: getattr(self, name) for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance", "composite",
+                                                    "denoised")}
         layers.update(self.surfaces or {})
         layers.update({"ids." + name: values for name, values in (self.ids or {}).items()})
         camera = self.camera

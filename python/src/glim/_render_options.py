@@ -43,6 +43,24 @@ class RenderOptions(TypedDict, total=False):
     line_radius: float
     """Radius of lines, in metres, 1e-09 to 1e+09 [by the file]"""
 
+    floor: Union[str, float]
+    """A floor at the height Y, in metres, or at the lowest point of the scene"""
+
+    floor_color: Sequence[float]
+    """Its colour, linear Rec.709 [0.8,0.8,0.8]"""
+
+    floor_roughness: float
+    """Its roughness; smooth below 0.03, 0 to 1 [matte]"""
+
+    backdrop: float
+    """A floor that curves up into a wall at DEG right of -z, -360 to 360 [no wall]"""
+
+    catcher_reflections: Union[bool, Literal["off", "on"]]
+    """Whether catchers reflect objects and their light: on or off [on]"""
+
+    catcher: Union[str, Sequence[str]]
+    """Material that catches shadows on transparency, as floor; repeatable"""
+
     set: Dict[str, Any]
     """Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable"""
 
