@@ -103,6 +103,7 @@
     ID(CameraChosen)                                                      \
     ID(ToneChosen)                                                        \
     ID(ExposureChosen)                                                    \
+    ID(FocusFound)                                                        \
     ID(AlphaLost)                                                         \
     ID(HalfOverflow)                                                      \
     ID(BegunAnew)                                                         \

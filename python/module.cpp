@@ -2,6 +2,7 @@
 #include "host/atomic_file.hpp"
 #include "host/gpu/device.hpp"
 #include "host/image/exr.hpp"
+#include "host/job/focus.hpp"
 #include "host/job/render_picture.hpp"
 #include "host/job/render_report.hpp"
 #include "host/job/surface_files.hpp"
@@ -172,6 +173,7 @@ struct Wanted {
 
 struct RayKernels {
     std::shared_ptr<const CameraRayKernels> ofSamples, ofCenters;
+    FocusFinder focus;
 };
 
 class PythonScene {
@@ -235,9 +237,10 @@ private:
         return {std::move(session), std::move(rayKernels)};
     }
 
-    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& options, const PythonFilm* resumed, const Wanted& wanted, Watcher& watcher)
+    std::shared_ptr<PythonFilm> renderWithin(const RenderJob& asked, const PythonFilm* resumed, const Wanted& wanted, Watcher& watcher)
     {
-        auto [session, rayKernels] = takeSession(options);
+        auto [session, rayKernels] = takeSession(asked);
+        const RenderJob options = rayKernels.focus.resolve(asked, *session);
         if (options.settings.aov == Aov::Radiance) {
             warnIfNoLights(session->prepared());
         }

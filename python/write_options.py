@@ -21,6 +21,7 @@ TYPES = {
     "fisheye": PLACE,
     "floor": "Union[str, float]",
     "floor_color": PLACE,
+    "focus": "Tuple[int, int]",
     "intrinsics": PLACE,
     "intrinsics_opencv": PLACE,
     "look_at": PLACE,

@@ -298,19 +298,6 @@ void writeReplay(const std::filesystem::path& file, const ReplayReport& report)
     writeJson(file, json);
 }
 
-void refuseOutside(const SamplePlace& place, const RenderSettings& settings)
-{
-    if (place.x >= settings.width || place.y >= settings.height) {
-        throw InputError(
-            MessageId::OutOfRange,
-            {part::place("--replay"), ": pixel ", part::value(std::to_string(place.x) + "," + std::to_string(place.y)),
-             " is outside the picture of ", std::to_string(settings.width), "x", std::to_string(settings.height), "; expected ",
-             part::expected("X from 0 to " + std::to_string(settings.width - 1) + " and Y from 0 to " +
-                            std::to_string(settings.height - 1)),
-             "."});
-    }
-}
-
 }  // namespace
 
 void runReplay(const RenderJob& options)
@@ -324,7 +311,7 @@ void runReplay(const RenderJob& options)
     const Camera camera = makeCamera(prepared.scene, options);
     sayIfCameraIsNumber(prepared.scene, options.camera);
     const RenderSettings settings = settingsFor(options, camera);
-    refuseOutside(*options.replay, settings);
+    refuseOutside("--replay", {options.replay->x, options.replay->y}, settings);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     Replay replay(device, prepared.flat, flattenCamera(prepared, camera, aspect, options.lens), settings);
     const SamplePlace& place = *options.replay;

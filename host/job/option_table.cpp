@@ -101,6 +101,12 @@ const Option& Option::excludes(const Option& other) const
     return *this;
 }
 
+const Option& Option::servesAs(const Option& other) const
+{
+    table_->entries_[other.index_].substitutes.push_back(index_);
+    return *this;
+}
+
 const Option& Option::holds(OptionKind kind, const std::vector<std::string>& choices) const
 {
     table_->entries_[index_].kind = kind;
@@ -262,6 +268,16 @@ void OptionTable::set(const std::string& name, const Json& value)
 void OptionTable::finish() const
 {
     const auto isMissing = [this](std::size_t index) { return entries_[index].given.empty(); };
+    const auto isLacking = [&](std::size_t index) {
+        return isMissing(index) && std::ranges::all_of(entries_[index].substitutes, isMissing);
+    };
+    const auto nameWithSubstitutes = [this](const Entry& entry) {
+        std::string names = entry.name();
+        for (const std::size_t substitute : entry.substitutes) {
+            names += " or " + entries_[substitute].name();
+        }
+        return names;
+    };
     for (const Entry& entry : entries_) {
         if (entry.isRequired && entry.given.empty()) {
             throw UsageError(MessageId::Missing, {part::place(entry.name()), " is required"});
@@ -269,8 +285,9 @@ void OptionTable::finish() const
         if (entry.given.empty()) {
             continue;
         }
-        if (const auto lacks = std::ranges::find_if(entry.needs, isMissing); lacks != entry.needs.end()) {
-            throw UsageError(MessageId::Requires, {part::place(entry.name()), " requires ", part::expected(entries_[*lacks].name())});
+        if (const auto lacks = std::ranges::find_if(entry.needs, isLacking); lacks != entry.needs.end()) {
+            throw UsageError(MessageId::Requires,
+                             {part::place(entry.name()), " requires ", part::expected(nameWithSubstitutes(entries_[*lacks]))});
         }
         if (const auto other = std::ranges::find_if_not(entry.excludes, isMissing); other != entry.excludes.end()) {
             throw UsageError(MessageId::Conflict, {part::place(entry.name()), " excludes ", part::value(entries_[*other].name())});

@@ -60,6 +60,8 @@ public:
     const Option& require(bool required = true) const;
     const Option& needs(const Option& other) const;
     const Option& excludes(const Option& other) const;
+    // Whatever needs `other` may have this one instead.
+    const Option& servesAs(const Option& other) const;
     // `choices`: the words of a Choice.
     const Option& holds(OptionKind kind, const std::vector<std::string>& choices = {}) const;
 
@@ -80,7 +82,7 @@ public:
         std::vector<std::string> choices;
         enum class Takes { One, Each, Several } takes = Takes::One;  // Each: one each time it is given; Several: all that follow
         bool isHidden = false, isRequired = false;
-        std::vector<std::size_t> needs, excludes;
+        std::vector<std::size_t> needs, excludes, substitutes;
         std::vector<OptionValue> given;
 
         bool isFlag() const { return unit.empty(); }

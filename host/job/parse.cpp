@@ -288,6 +288,18 @@ SamplePlace parseSample(const OptionValue& value)
     return place;
 }
 
+glm::uvec2 parsePixel(const std::string& option, const OptionValue& value)
+{
+    const std::vector<std::string> parts = value.split(',');
+    glm::uvec2 pixel(0);
+    const bool areNumbers = parts.size() == 2 && parseNumber(parts[0], pixel.x) && parseNumber(parts[1], pixel.y);
+    if (!areNumbers || std::max(pixel.x, pixel.y) >= kMaxSide) {
+        refuseValue(option, value.text(), areNumbers,
+                    "X,Y with whole numbers from 0 to " + std::to_string(kMaxSide - 1) + ", as in 320,240");
+    }
+    return pixel;
+}
+
 constexpr double kMaxSeconds = 1e9;  // 30 years
 
 double parseDuration(const std::string& option, const OptionValue& given)

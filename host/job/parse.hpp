@@ -47,6 +47,7 @@ Edit parseEdit(const OptionValue& value);                                       
 Addition parseAddition(const OptionValue& value);                                 // "FILE", "FILE@x,y,z", or numbers whose key is the file
 std::string describeAddition(const Addition& addition);
 SamplePlace parseSample(const OptionValue& value);                           // "12,40,7"
+glm::uvec2 parsePixel(const std::string& option, const OptionValue& value);  // "12,40", from the upper left corner
 glm::dvec3 parsePoint(const std::string& option, const OptionValue& value);  // "1,2.5,-3"
 // Finite numbers, as many as one of `counts` says; `expected` describes them in messages.
 std::vector<double> parseNumbers(const std::string& option, const OptionValue& value, const std::vector<std::size_t>& counts,

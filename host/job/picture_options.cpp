@@ -230,4 +230,17 @@ RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
     return settings;
 }
 
+void refuseOutside(const std::string& option, const glm::uvec2& pixel, const RenderSettings& settings)
+{
+    if (pixel.x >= settings.width || pixel.y >= settings.height) {
+        throw InputError(
+            MessageId::OutOfRange,
+            {part::place(option), ": pixel ", part::value(std::to_string(pixel.x) + "," + std::to_string(pixel.y)),
+             " is outside the picture of ", std::to_string(settings.width), "x", std::to_string(settings.height), "; expected ",
+             part::expected("X from 0 to " + std::to_string(settings.width - 1) + " and Y from 0 to " +
+                            std::to_string(settings.height - 1)),
+             "."});
+    }
+}
+
 }  // namespace glim

@@ -56,6 +56,7 @@ void addSampler(OptionTable& table, RenderSettings& settings);
 void addCamera(OptionTable& table, PictureOptions& options, const std::string& more = "");
 void addProjection(OptionTable& table, PictureOptions& options);
 void addCrop(OptionTable& table, PictureOptions& options);
+void addFocus(OptionTable& table, std::optional<glm::uvec2>& pixel);
 void addLightTransport(OptionTable& table, RenderSettings& settings);
 void addCaustics(OptionTable& table, RenderSettings& settings);
 void addCourseEstimators(OptionTable& table, RenderSettings& settings);
@@ -69,5 +70,7 @@ LoadOptions makeLoadOptions(const PictureOptions& options);
 Camera makeCamera(const Scene& scene, const PictureOptions& options);
 // The settings with a size: that of the camera's crop, or of the options, or else by the camera.
 RenderSettings settingsFor(const PictureOptions& options, const Camera& camera);
+// Throws InputError for a pixel that the option names and the picture lacks.
+void refuseOutside(const std::string& option, const glm::uvec2& pixel, const RenderSettings& settings);
 
 }  // namespace glim

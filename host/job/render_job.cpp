@@ -91,6 +91,7 @@ void addJobOptions(OptionTable& table, RenderJob& options)
     table.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]",
               [&options](const OptionValue& value) { options.settings.rows = parseRange("--rows", value, kMaxSide); });
     addCamera(table, options, ", or all");
+    addFocus(table, options.focus);
     addProjection(table, options);
     addCrop(table, options);
     addSequence(table, options);

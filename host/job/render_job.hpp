@@ -16,6 +16,7 @@ struct RenderJob : PictureOptions {
     std::optional<std::filesystem::path> rates, layers, ids, surfaces, objects, stats;
     ExrCompression compression = ExrCompression::Zip;  // of the layers
     std::optional<double> flow;                        // seconds, of the surfaces
+    std::optional<glm::uvec2> focus;                   // the pixel that says the lens's focal distance (focus.hpp)
     SequenceOptions sequence;
     bool denoise = false, noDenoise = false;    // a picture of few samples that is written without its film is denoised unless noDenoise
     std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser

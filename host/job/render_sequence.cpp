@@ -2,6 +2,7 @@
 
 #include "host/clock.hpp"
 #include "host/job/film_report.hpp"
+#include "host/job/focus.hpp"
 #include "host/job/interrupt.hpp"
 #include "host/job/outcome.hpp"
 #include "host/job/output_file.hpp"
@@ -192,6 +193,7 @@ private:
     bool isSequence_ = false;
     const InterruptWatch* watch_ = nullptr;  // of the request under way
     SceneSession session_;
+    FocusFinder focus_;
     SequencePlace place_;
     SurfaceFiles surfaceFiles_;
 };
@@ -237,7 +239,7 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     place_.count = shots.size();
     for (const Shot& shot : shots) {
         session_.pose(options.edits, shot.at);
-        const ExitCode code = renderShot(makeOptions(shot));
+        const ExitCode code = renderShot(focus_.resolve(makeOptions(shot), session_));
         if (code != ExitCode::Done) {
             return code;
         }

@@ -102,6 +102,7 @@ const Rule<RenderJob> kRenderRules[] = {
      isReplay,
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
+    {{"--focus"}, isReplay, MessageId::Conflict, "expected ", "--focal-distance with the number that the render has printed"},
     {{"--flow"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--replay"}, isReplayOfSequence, MessageId::Conflict, "expected ", "the options of one picture"},
     {{"--frames", "--look-from", "--pose-gltf", "--pose-opencv"},

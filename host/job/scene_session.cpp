@@ -99,12 +99,23 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
         renderer_->setSampling(settings);
         renderer_->restart(prepared_.flat, camera, settings.width, settings.height);
     } else {
-        renderer_->clearStatistics();
+        if (isAhead_) {
+            renderer_->resources().clearStatistics();
+        } else {
+            renderer_->clearStatistics();
+        }
         renderer_->setSampling(settings);
         renderer_->adapt(prepared_.flat, camera);
         renderer_->restart(camera, settings.width, settings.height);
     }
-    isSceneNew_ = false;
+    isSceneNew_ = isAhead_ = false;
+    return *renderer_;
+}
+
+Renderer& SceneSession::beginAhead(const FlatCamera& camera, const RenderSettings& settings)
+{
+    begin(camera, settings);
+    isAhead_ = true;
     return *renderer_;
 }
 

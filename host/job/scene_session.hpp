@@ -27,6 +27,8 @@ public:
     // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
     // schedule is the faster one.
     Renderer& begin(const FlatCamera& camera, RenderSettings settings);
+    // The same for rays that are traced before the picture, which begin() then begins. Its statistics have the upload, but not these rays.
+    Renderer& beginAhead(const FlatCamera& camera, const RenderSettings& settings);
 
     const PreparedScene& prepared() const { return prepared_; }
     const Device& device() const { return device_; }
@@ -49,6 +51,7 @@ private:
     std::optional<Renderer> renderer_;
     FilmDenoiser denoiser_;
     bool isSceneNew_ = true;  // to the renderer
+    bool isAhead_ = false;    // the renderer, of the picture's samples
 };
 
 }  // namespace glim

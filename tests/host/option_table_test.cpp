@@ -68,6 +68,18 @@ TEST(OptionValues, SayTheSameAsTexts)
     EXPECT_EQ(parseDuration("", OptionValue("2m")), parseDuration("", OptionValue(Json(120))));
 }
 
+TEST_F(OptionTableTest, AnOptionMayServeAsTheOneThatIsNeeded)
+{
+    bool anySize = false;
+    table_.addFlag("--any-size", "", anySize);
+    table_.option("--any-size").servesAs(table_.option("--size"));
+    set("file", R"("f")");
+    set("--spp", "1");
+    expectRefusal<UsageError>([this] { table_.finish(); }, MessageId::Requires, {.place = "--spp", .expected = "--size or --any-size"});
+    set("--any-size", "true");
+    EXPECT_NO_THROW(table_.finish());
+}
+
 TEST_F(OptionTableTest, EditsAreAPointerAndJson)
 {
     for (const auto& [text, json] : {std::pair("1,.25,-3e2,1", "[1.0,0.25,-300.0,1.0]"),

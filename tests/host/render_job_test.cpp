@@ -106,6 +106,7 @@ TEST(RenderJob, RaysAreTracedAsAsked)
     const Lens lens = parse("--lens-radius 0.25 --focal-distance 7.5").lens;
     EXPECT_EQ(lens.radius, 0.25F);
     EXPECT_EQ(lens.focalDistance, 7.5F);
+    EXPECT_EQ(parse("--lens-radius 0.25 --focus 12,7").focus, glm::uvec2(12, 7));
 }
 
 TEST(RenderJob, AdaptiveRendersTakeIndependentSamplesUpToALimit)
@@ -202,7 +203,15 @@ TEST(RenderJob, WhatDoesNotGoTogetherIsRefused)
         {"--ids x.exr", Id::Duplicate, {{}, "--ids", "x.exr", "--output"}},
         {"--ids ./x.exr", Id::Duplicate, {{}, "--ids", "./x.exr", "--output"}},
         {"--lens-radius 0.1", Id::Requires, {{}, "--lens-radius", {}, "--focal-distance"}},
-        {"--focal-distance 3", Id::Requires, {{}, "--focal-distance", {}, "--lens-radius"}}};
+        {"--lens-radius 0.1", Id::Requires, {{}, "--lens-radius", {}, "--focus"}},
+        {"--focal-distance 3", Id::Requires, {{}, "--focal-distance", {}, "--lens-radius"}},
+        {"--focus 3,4", Id::Requires, {{}, "--focus", {}, "--lens-radius"}},
+        {"--focus 3,4 --lens-radius 1 --focal-distance 2", Id::Conflict, {{}, "--focal-distance", "--focus"}},
+        {"--focus 3,4 --lens-radius 1 --projection equirectangular", Id::Conflict, {{}, "--lens-radius", "--projection"}},
+        {"--focus 3,4 --lens-radius 1 --replay 0,0,1", Id::Conflict, {{}, "--focus", "3,4", "--focal-distance"}},
+        {"--focus 65535,4 --lens-radius 1", Id::OutOfRange, {{}, "--focus", "65535,4", "0 to 65534"}},
+        {"--focus 3.5,4 --lens-radius 1", Id::Malformed, {{}, "--focus", "3.5,4", "whole numbers"}},
+        {"--focus 3 --lens-radius 1", Id::Malformed, {{}, "--focus", "3", "X,Y"}}};
     for (const Case& refused : cases) {
         expectRefused(refused.options, refused.id, refused.parts);
     }

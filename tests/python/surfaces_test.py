@@ -92,6 +92,17 @@ class SurfacesTest(PythonCase):
                 glim.render(GEMS, **SMALL, **options)
             self.assertEqual(refused.exception.place, "flow")
 
+    def test_focus_is_the_depth_of_a_pixel(self):
+        gems = glim.load(GEMS, lens_radius=.1, **SMALL)
+        focused = gems.render(focus=(10, 6))
+        shown = glim.render(GEMS, surfaces=True, **SMALL)
+        pose = np.array(shown.camera.pose(axes="gltf"))
+        distance = float((pose[:3, 3] - shown.surfaces["position"][6, 10]) @ pose[:3, 2])
+        self.assertRegex(focused.settings, "focal-distance=")
+        said = float(focused.settings.rpartition("focal-distance=")[2].split()[0])
+        self.assertAlmostEqual(said, distance, delta=1e-6 * distance)
+        self.assertEqual(gems.render(focal_distance=said).digest, focused.digest)
+
     def test_a_crop_has_its_own_K(self):
         whole = glim.render(GEMS, surfaces=True, **SMALL)
         part = glim.render(GEMS, surfaces=True, crop=(10, 6, 12, 8), **SMALL)

@@ -155,6 +155,7 @@ TEST_F(ServeTest, PicturesHaveTheBitsThatTheyHaveAlone)
         {gems, "--size", "32x24", "--spp", "8", "--seed", "3"},
         {gems, "--size", "16x12", "--spp", "8", "--look-from", "0,1,3", "--look-at", "0,1,0"},
         {gems, "--size", "16x12", "--spp", "8", "--lens-radius", ".1", "--focal-distance", "3"},
+        {gems, "--size", "16x12", "--spp", "8", "--lens-radius", ".1", "--focus", "3,4"},
         {gems, "--size", "16x12", "--spp", "8", "--rows", "2:7"},
         {gems, "--size", "16x12", "--spp", "8", "--rows", "7:8"},
         {gems, "--size", "16x12", "--spp", "8", "--bounces", "2"},

@@ -211,6 +211,7 @@ class CommandTest(unittest.TestCase):
         for more, words in ((["--time", "1"], "whole pages of samples"), (["--target-rmse", "1"], "as in 1%"),
                             (["--target-relmse", "0"], "a number above 0"), 
                             (["--frames", "1:2", "--target-rmse", "1%", "-o", "a.#.exr"], "one picture"), (["--rows=0:4"], "--bands"),
+                            (["--any-device", "--lens-radius", ".1", "--focus", "3,4"], "--focal-distance"),
                             (["--bands", "1001"], "from 1 to 1000"), (["--bands", "4", "--target-rmse", "1%"], "neither --frames nor"),
                             (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
                             (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),

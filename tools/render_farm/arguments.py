@@ -195,6 +195,8 @@ def refuse_combinations(parser, options):
         parser.error("--target-rmse and --target-relmse: expected one picture, not --frames")
     if options.bands and (options.frames or options.target):
         parser.error("--bands: expected neither --frames nor a target; the error is known of whole pictures only")
+    if "focus" in options.job and options.any_device:
+        parser.error("--focus: devices that round differently may find different distances; expected --focal-distance")
     if options.fps is not None and options.frames is None:
         parser.error("--fps: expected --frames as well")
     if options.workers and not options.slurm:
