@@ -41,6 +41,8 @@ public:
     std::uint64_t tell() const { return position_; }
     void seek(std::uint64_t position);
     void commit();
+    // For another program that writes the file in place of write().
+    int descriptor() const { return descriptor_; }
 
 private:
     static constexpr std::size_t kBufferBytes = std::size_t{1} << 20U;

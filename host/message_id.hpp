@@ -39,6 +39,8 @@
     ID(DriverFailed)                                                      \
     ID(LibraryMissing)                                                    \
     ID(LibraryFailed)                                                     \
+    ID(ProgramMissing)                                                    \
+    ID(ProgramFailed)                                                     \
     ID(NoWindow)                                                          \
     ID(Stopped) /* by its user */                                         \
     ID(PicturesDiffer)                                                    \

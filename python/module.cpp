@@ -55,9 +55,9 @@ void refuseFork()
 }
 
 // Options that write files or make several pictures: in Python the caller does that.
-constexpr const char* kRefused[] = {"--image",    "--rates",   "--layers",    "--compression", "--ids",    "--surfaces",
-                                    "--flow",     "--objects", "--stats",     "--checkpoint",  "--resume", "--on-checkpoint",
-                                    "--progress", "--frames",  "--turntable", "--cameras",     "--replay", "--suspects"};
+constexpr const char* kRefused[] = {"--image",     "--rates", "--layers",     "--compression", "--ids",           "--surfaces", "--flow",
+                                    "--objects",   "--stats", "--checkpoint", "--resume",      "--on-checkpoint", "--progress", "--frames",
+                                    "--turntable", "--movie", "--cameras",    "--replay",      "--suspects"};
 
 // The Json of a Python value: bytes, a bool, a number, a list of bytes and numbers, or a dict of these (glim/_options.py).
 Json valueOf(nb::handle value)

@@ -130,7 +130,7 @@ void addFocus(OptionTable& table, std::optional<glm::uvec2>& pixel)
 {
     const Option radius = table.option("--lens-radius"), distance = table.option("--focal-distance");
     table
-        .add("--focus", "X,Y", "Focus on what this pixel shows, counted from 0,0 at the upper left; in place of --focal-distance",
+        .add("--focus", "X,Y", "Focus on what this pixel shows, 0,0 at the upper left, instead of --focal-distance",
              [&pixel](const OptionValue& value) { pixel = parsePixel("--focus", value); })
         .needs(radius)
         .excludes(distance)

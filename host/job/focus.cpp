@@ -25,7 +25,7 @@ WholePicture makeWhole(RenderJob options, const PreparedScene& prepared)
     return {settings, flattenCamera(prepared, camera, aspect, options.lens)};
 }
 
-std::string toText(const glm::uvec2& pixel) { return std::to_string(pixel.x) + "," + std::to_string(pixel.y); }
+std::string pixelText(const glm::uvec2& pixel) { return std::to_string(pixel.x) + "," + std::to_string(pixel.y); }
 
 }  // namespace
 
@@ -44,12 +44,12 @@ RenderJob FocusFinder::resolve(RenderJob options, SceneSession& session)
     const std::uint32_t chosen = pixel.y * settings.width + pixel.x;
     const PathHit hit = rays.trace(std::span(&chosen, 1), 0, 1).front();
     if (hit.primitiveRef == kNoPrimitiveRef) {
-        throw InputError(MessageId::Empty, {part::place("--focus"), ": pixel ", part::value(toText(pixel)), " shows no surface; expected ",
-                                            part::expected("a pixel that shows what is to be sharp"), "."});
+        throw InputError(MessageId::Empty, {part::place("--focus"), ": pixel ", part::value(pixelText(pixel)),
+                                            " shows no surface; expected ", part::expected("a pixel that shows what is to be sharp"), "."});
     }
     const glm::dvec3 direction(rays.rays(1).front().direction);
     options.lens.focalDistance = static_cast<float>(static_cast<double>(hit.t) * glm::dot(direction, glm::dvec3(camera.forward)));
-    say(MessageId::FocusFound, {part::place("--focus"), " ", toText(pixel), " is ", part::place("--focal-distance"), " ",
+    say(MessageId::FocusFound, {part::place("--focus"), " ", pixelText(pixel), " is ", part::place("--focal-distance"), " ",
                                 part::value(exactText(options.lens.focalDistance))});
     return options;
 }

@@ -26,7 +26,7 @@ void addSequence(OptionTable& table, RenderJob& options)
     table.beginGroup("Several pictures");
     const Option frames = table.add("--frames", "A:B[:STEP]", "Frames A to B of the animation; each number replaces #### in names of files",
                                     [&sequence](const OptionValue& value) { sequence.frames = parseFrames(value); });
-    addNumber<double>(table, {"--fps", "N", "Frames per second of --frames", 1e-3, 1e6, "24"}, [&sequence](double fps) {
+    addNumber<double>(table, {"--fps", "N", "Frames per second of --frames and of the movie", 1e-3, 1e6, "24"}, [&sequence](double fps) {
         sequence.fps = fps;
     }).needs(frames);
     const Option turntable =
@@ -39,6 +39,8 @@ void addSequence(OptionTable& table, RenderJob& options)
         chooser->excludes(table.option("--camera")).excludes(table.option("--look-from"));
         chooser->excludes(table.option("--pose-gltf")).excludes(table.option("--pose-opencv"));
     }
+    table.addPath("--movie", "M.mp4", "Also make a movie of the first --image by ffmpeg: .mp4 (H.264) or .webm (VP9)", options.movie)
+        .servesAs(frames);
     cameras.excludes(table.option("--fov")).excludes(table.option("--zoom"));  // each camera of the file has its own
 }
 

@@ -18,8 +18,9 @@ struct RenderJob : PictureOptions {
     std::optional<double> flow;                        // seconds, of the surfaces
     std::optional<glm::uvec2> focus;                   // the pixel that says the lens's focal distance (focus.hpp)
     SequenceOptions sequence;
-    bool denoise = false, noDenoise = false;    // a picture of few samples that is written without its film is denoised unless noDenoise
-    std::optional<std::filesystem::path> oidn;  // instead of glim's own denoiser
+    std::optional<std::filesystem::path> movie;  // of the sequence's first picture files
+    bool denoise = false, noDenoise = false;     // a picture of few samples that is written without its film is denoised unless noDenoise
+    std::optional<std::filesystem::path> oidn;   // instead of glim's own denoiser
     CheckpointOptions checkpoint;
     std::optional<SamplePlace> replay;  // instead of a picture
     ProgressStyle progress = ProgressStyle::Auto;

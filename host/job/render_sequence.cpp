@@ -4,6 +4,7 @@
 #include "host/job/film_report.hpp"
 #include "host/job/focus.hpp"
 #include "host/job/interrupt.hpp"
+#include "host/job/movie.hpp"
 #include "host/job/outcome.hpp"
 #include "host/job/output_file.hpp"
 #include "host/job/output_lock.hpp"
@@ -33,6 +34,9 @@ void checkTargets(const RenderJob& options, const std::vector<std::filesystem::p
     checkPictureTargets(options.pictures, inputs);
     if (options.rates) {
         checkTarget(*options.rates, ".png", inputs);
+    }
+    if (options.movie) {
+        checkTarget(*options.movie, "", inputs);
     }
     for (const auto* file : {&options.layers, &options.ids, &options.surfaces}) {
         if (*file) {
@@ -185,7 +189,10 @@ private:
     RenderJob makeOptions(const Shot& shot) const;
     ExitCode renderShot(const RenderJob& options);
     std::optional<StoredFilm> readOutput(const RenderJob& options, const PictureFrame& frame) const;
-    bool keep(const RenderJob& options, const StoredFilm& stored) const;
+    bool keep(const RenderJob& options, const StoredFilm& stored);
+    std::optional<Look> draw(const RenderJob& options, const Film& film);
+    void fixSize(const Shot& first);
+    ExitCode makeMovieOf(const std::vector<Shot>& shots);
     ExitCode writeShot(const RenderJob& options, const PictureFrame& frame, RenderedFilm rendered);
 
     std::ostream& reports_;
@@ -224,6 +231,9 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
     watch_ = &watch;
     pose(options);
     const std::vector<Shot> shots = listShots(options.sequence, options, session_.prepared().scene);
+    if (options_.movie) {
+        fixSize(shots.front());
+    }
     for (const Shot& shot : shots) {
         checkTargets(makeOptions(shot), session_.prepared().scene.files);
         makeCamera(session_.prepared().scene, makeOptions(shot));  // refuses what does not fit it before the first picture
@@ -249,7 +259,32 @@ ExitCode SequenceRenderer::renderAll(const RenderJob& options, const InterruptWa
         reports_ << place_.rendered << " of " << place_.count << " pictures rendered in " << std::fixed << std::setprecision(2)
                  << place_.seconds << " s" << (place_.rendered < place_.count ? ", the others were there\n" : "\n");
     }
-    return ExitCode::Done;
+    return options_.movie ? makeMovieOf(shots) : ExitCode::Done;
+}
+
+// A movie has one size, even if an animation changes its camera's aspect ratio.
+void SequenceRenderer::fixSize(const Shot& first)
+{
+    options_.size = options_.size.value_or(defaultSize(makeCamera(session_.prepared().scene, makeOptions(first))));
+}
+
+ExitCode SequenceRenderer::makeMovieOf(const std::vector<Shot>& shots)
+{
+    std::vector<std::filesystem::path> pictures;
+    for (const Shot& shot : shots) {
+        pictures.push_back(makeOptions(shot).pictures.front());
+    }
+    return makeMovie(options_, pictures, *watch_, reports_);
+}
+
+// A movie has one exposure: that of its first picture, if it is automatic.
+std::optional<Look> SequenceRenderer::draw(const RenderJob& options, const Film& film)
+{
+    const std::optional<Look> look = drawFilm(options, film);
+    if (look && options_.movie) {
+        options_.look.exposure = look->exposure;
+    }
+    return look;
 }
 
 ExitCode SequenceRenderer::renderShot(const RenderJob& options)
@@ -321,7 +356,7 @@ std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options,
 }
 
 // Keeps a film that is whole already; its PNGs may be of another exposure, and are drawn again.
-bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) const
+bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored)
 {
     const auto isMissing = [](const std::optional<std::filesystem::path>* file) { return *file && !isThere(**file); };
     if (!isWhole(stored, options) ||
@@ -329,9 +364,9 @@ bool SequenceRenderer::keep(const RenderJob& options, const StoredFilm& stored) 
         return false;
     }
     if (!options.denoise || !stored.film.catcher.empty()) {
-        drawFilm(options, stored.film);
+        draw(options, stored.film);
     } else if (const auto radiance = readDenoised(*options.output)) {
-        drawFilm(options, showDenoised(stored.film, *radiance));
+        draw(options, showDenoised(stored.film, *radiance));
     } else {
         return false;
     }
@@ -352,7 +387,7 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
     const std::optional<Denoising>& denoising = rendered.denoising;
     const auto start = Clock::now();
     std::optional<FilmDigests> digests = writeFilmOf(options, rendered, denoising);
-    const std::optional<Look> look = drawFilm(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
+    const std::optional<Look> look = draw(options, denoising ? showDenoised(film, denoising->picture.radiance) : film);
     const double writeSeconds = secondsSince(start);
     warnIfUnknown(rendered);
     if (options.denoise && !denoising && !rendered.denoisingError) {
@@ -401,6 +436,9 @@ ExitCode RenderSession::render(const RenderJob& options)
 {
     checkTargets(options, {options.scene});
     const InterruptWatch watch;
+    if (options.movie) {
+        checkMovie(options);
+    }
     if (renderer_ && renderer_->serves(options)) {
         renderer_->pose(options);  // what the scene refuses changes nothing
     }

@@ -1,6 +1,7 @@
 #include "host/job/resolve_options.hpp"
 
 #include "host/image/picture_file.hpp"
+#include "host/job/movie_writer.hpp"
 #include "host/job/parse.hpp"
 #include "host/text.hpp"
 #include "shaders/shared/limits.h"
@@ -94,16 +95,20 @@ bool listsSuspects(const RenderJob& job) { return job.settings.suspects > 0; }
 bool keepsNoFilm(const RenderJob& job) { return !job.output && !job.replay; }
 bool isByAllCameras(const RenderJob& job) { return job.camera == "all"; }
 bool isAtRest(const RenderJob& job) { return !firstTime(job.sequence, job); }
+bool isOnePicture(const RenderJob& job) { return !isSequence(job.sequence, job); }
+bool keepsNoPicture(const RenderJob& job) { return job.pictures.empty(); }
 bool isReplayOfSequence(const RenderJob& job) { return isReplay(job) && isSequence(job.sequence, job); }
 
 const Rule<RenderJob> kRenderRules[] = {
-    {{"--output", "--image", "--rates", "--layers", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects",
+    {{"--output", "--image", "--movie", "--rates", "--layers", "--ids", "--surfaces", "--objects", "--progress", "--time", "--suspects",
       "--target-rmse", "--target-relmse", "--checkpoint", "--resume"},
      isReplay,
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
     {{"--focus"}, isReplay, MessageId::Conflict, "expected ", "--focal-distance with the number that the render has printed"},
     {{"--flow"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
+    {{"--movie"}, isOnePicture, MessageId::Requires, "is of several pictures; expected ", "--turntable, --frames or --cameras"},
+    {{"--movie"}, keepsNoPicture, MessageId::Requires, "is made of pictures, which are kept; expected ", "--image picture.####.png"},
     {{"--replay"}, isReplayOfSequence, MessageId::Conflict, "expected ", "the options of one picture"},
     {{"--frames", "--look-from", "--pose-gltf", "--pose-opencv"},
      isByAllCameras,
@@ -330,6 +335,18 @@ void checkNames(const OptionTable& table, const RenderJob& job)
     }
 }
 
+void checkMovieNames(const OptionTable& table, const RenderJob& job)
+{
+    if (job.output && getMovieFormat(*job.output)) {
+        refuse(table, "--output", MessageId::UnknownFormat,
+               {"a movie is made of pictures, which are kept; expected ", part::expected("their names, as in turn.####.png, and --movie")});
+    }
+    if (job.movie && !getMovieFormat(*job.movie)) {
+        refuse(table, "--movie", MessageId::UnknownFormat,
+               {"expected ", part::expected(std::string("a name that ends in ") + kMovieEndings)});
+    }
+}
+
 void checkFiles(const OptionTable& table, const RenderJob& job)
 {
     resolvePictureFiles(table, job.pictures);
@@ -394,6 +411,7 @@ void resolveLight(const OptionTable& table, const PictureOptions& picture)
 void resolveRender(const OptionTable& table, RenderJob& job)
 {
     resolveAnimation(table, job.at || job.sequence.frames);
+    checkMovieNames(table, job);
     resolveOutput(job.output, job.pictures);
     apply<PictureOptions>(kPictureRules, table, job);
     apply<RenderJob>(kRenderRules, table, job);

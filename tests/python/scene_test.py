@@ -480,8 +480,9 @@ class ManyTest(PythonCase):
                                ("^progress: ", {"at": [0], "progress": 5})):
             with self.assertRaisesRegex(glim.InputError, words):
                 lamp.render_many(**options)
-        with self.assertRaisesRegex(glim.InputError, "^turntable: .*command line"):
-            lamp.render(turntable=3)
+        for option in ({"turntable": 3}, {"movie": "m.mp4"}):
+            with self.assertRaisesRegex(glim.InputError, "^%s: .*command line" % next(iter(option))):
+                lamp.render(**option)
 
 
 class OptionsTest(PythonCase):

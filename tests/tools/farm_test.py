@@ -215,7 +215,7 @@ class CommandTest(unittest.TestCase):
                             (["--bands", "1001"], "from 1 to 1000"), (["--bands", "4", "--target-rmse", "1%"], "neither --frames nor"),
                             (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
                             (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),
-                            (["--samples=0:4"], "hands out samples itself"), (["--seed=1", "--seed", "2"], "given twice"),
+                            (["--samples=0:4"], "hands out samples itself"), (["--movie", "m.mp4"], "writes films"), (["--seed=1", "--seed", "2"], "given twice"),
                             (["stray"], "expected an option"),
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),
                             (["--frames", "1:2"], "####"), (["--fps", "3"], "--frames"), (["--frames", "2:1"], "A:B"),

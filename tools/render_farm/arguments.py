@@ -26,7 +26,7 @@ REFUSED = {
     "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
     "--rows": "the farm cuts the picture itself; expected --bands",
     "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--layers": ONLY_FILMS, "--ids": ONLY_FILMS, "--surfaces": ONLY_FILMS,
-    "--objects": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
+    "--objects": ONLY_FILMS, "--movie": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
 }
 

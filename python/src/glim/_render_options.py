@@ -110,7 +110,7 @@ class RenderOptions(TypedDict, total=False):
     """Distance of the plane in focus, in metres, 1e-06 to 1e+09 [none]"""
 
     focus: Tuple[int, int]
-    """Focus on what this pixel shows, counted from 0,0 at the upper left; in place of focal_distance"""
+    """Focus on what this pixel shows, 0,0 at the upper left, instead of focal_distance"""
 
     pose_gltf: Sequence[float]
     """The camera's 3x4 or 4x4 matrix to world, row by row; it looks along -z, up is +y"""
