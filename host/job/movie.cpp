@@ -83,7 +83,7 @@ ExitCode makeMovie(const RenderJob& options, const std::vector<std::filesystem::
         if (writeMovie(writer, pictures, watch)) {
             writer.commit();
             const double rate = movieRate(options.sequence);
-            reports << escaped(name) << ": " << pictures.size() << " pictures, "
+            reports << escaped(name) << ": " << pictures.size() << (pictures.size() == 1 ? " picture, " : " pictures, ")
                     << format("%.4g s at %.4g a second", static_cast<double>(pictures.size()) / rate, rate) << "\n";
             return ExitCode::Done;
         }

@@ -219,7 +219,8 @@ TEST_F(MovieTest, IsBlackWherePicturesAreTransparent)
     EXPECT_GT(parts, 4U);
 }
 
-// Of a saturated colour that fills most of the picture: another matrix or range would shift it by ten levels or more.
+// Of a saturated colour in the corner: another matrix or range would shift it by ten levels or more. Rounding of luma, of chroma and in
+// decoding, which truncates, come to three.
 TEST_F(MovieTest, OfTheRealProgramHasTheColoursOfThePictures)
 {
     fs::remove(folder_ / "bin/ffmpeg");
