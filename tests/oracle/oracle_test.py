@@ -21,6 +21,7 @@ import ggx  # noqa: E402
 import iridescence  # noqa: E402
 import media  # noqa: E402
 import sheen  # noqa: E402
+import slab  # noqa: E402
 import tone  # noqa: E402
 import transmission  # noqa: E402
 from directions import at_cosine, dot, half_vector, mirror, per_channel, reflect, rotate_z, sample_uniform_hemisphere  # noqa: E402
@@ -698,6 +699,48 @@ class MediaTest(OracleTestCase):
         self.assert_near(0.5 / (f - c), 30, 0.03)
         self.assertEqual(media.ior_at(500.0, 1.5, 0.0), 1.5)
         self.assertEqual(media.ior_at(2000.0, 1.05, 20.0), 1)
+
+
+def half_space_albedo(albedo, cosine):
+    """1 - sqrt(1 - albedo) H(cosine), of isotropic scattering: Chandrasekhar, "Radiative Transfer", 1950, chapter 5."""
+    x, w = np.polynomial.legendre.leggauss(64)
+    mu, root, h = (x + 1) / 2, math.sqrt(1 - albedo), np.ones(64)
+    for _ in range(2000):
+        h = 1 / (root + albedo / 2 * ((mu * h * w / 2) / (mu[:, None] + mu)).sum(axis=1))
+    return 1 - root / (root + albedo / 2 * (mu * h * w / 2 / (cosine + mu)).sum())
+
+
+class SlabTest(OracleTestCase):
+    def diffuse(self, *medium):
+        x, w = np.polynomial.legendre.leggauss(16)
+        mu = (x + 1) / 2
+        return [float((mu * w * seen).sum()) for seen in slab.slab(*medium, mu)]
+
+    def test_a_white_slab_loses_no_light(self):
+        for tau, g in ((0.1, 0.0), (1.0, 0.8), (100.0, -0.5)):
+            reflected, transmitted = slab.slab(1.0, tau, g, COSINES)
+            self.assert_near(reflected + transmitted, 1, 1e-5)
+
+    def test_a_black_slab_absorbs(self):
+        reflected, transmitted = slab.slab(0.0, 2.0, 0.0, COSINES)
+        self.assert_near(reflected, 0, 0)
+        self.assert_near(transmitted, np.exp(-2 / COSINES), 1e-8)
+
+    def test_half_space(self):
+        for albedo in (0.5, 0.9, 0.99):
+            for cosine in (1.0, 0.5, 0.1):
+                self.assert_near(slab.slab(albedo, 400.0, 0.0, [cosine])[0], half_space_albedo(albedo, cosine), 1e-6)
+
+    def test_diffusion(self):
+        # 4/3 / (tau (1 - g) + 2 q), with Milne's q = .7104 for isotropic scattering.
+        for tau in (10.0, 50.0):
+            self.assert_near(self.diffuse(1.0, tau, 0.0)[1], 4 / 3 / (tau + 2 * 0.71044609), 1e-6)
+            self.assert_near(self.diffuse(1.0, 5 * tau, 0.8)[1] * (tau + 2 * 0.71044609), 4 / 3, 2e-3)
+
+    def test_a_thick_slab_has_the_colour_that_glTF_names(self):
+        for color in (0.1, 0.3, 0.5, 0.8, 0.95):
+            s = 4.09712 + 4.20863 * color - math.sqrt(9.59217 + 41.6808 * color + 17.7126 * color**2)
+            self.assert_near(self.diffuse(1 - s * s, 1000.0, 0.0)[0], color, 2e-3)
 
 
 class ToneTest(OracleTestCase):

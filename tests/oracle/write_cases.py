@@ -22,6 +22,7 @@ import ggx
 import iridescence
 import media
 import sheen
+import slab
 import tone
 import transmission
 from directions import at_cosine, dot, half_vector, mirror, normalize, per_channel, sample_uniform_hemisphere
@@ -174,6 +175,16 @@ def ior_cases(rng):
     nm, ior, dispersion = rounded(400 + 300 * rng.random(n)), rounded(1 + 1.4 * rng.random(n)), rng.random(n) * 3
     spread = rounded((ior - 1) * dispersion / 20)
     return columns(n, nm, ior, spread, media.ior_at(nm, ior, np.where(ior > 1, 20 * spread / (ior - 1), 0)))
+
+
+def slab_cases(rng):
+    """Thin and thick slabs, seen straight and aslant: what they reflect and transmit."""
+    rows = []
+    for albedo, tau, g in ((1, 1, 0), (1, 4, 0.8), (0.9, 2, -0.5), (0.5, 1, 0.8), (0.99, 10, 0.5), (0.999, 100, 0)):
+        for cosine in (1, 0.5):
+            (reflected,), (transmitted,) = slab.slab(albedo, tau, g, [cosine])
+            rows.append([albedo, tau, g, cosine, reflected, transmitted])
+    return np.array(rows, float)
 
 
 def root_of(i):
@@ -437,7 +448,7 @@ def tone_cases(rng):
 
 
 # The last one puts tables in the place of exact albedos.
-WRITERS = (ggx_cases, transmission_cases, sheen_cases, film_cases, multiple_scattering_cases, albedo_cases, ior_cases, tone_cases, principled_cases)
+WRITERS = (ggx_cases, transmission_cases, sheen_cases, film_cases, multiple_scattering_cases, albedo_cases, ior_cases, slab_cases, tone_cases, principled_cases)
 
 
 def main():
