@@ -86,6 +86,7 @@
     ID(SplatsAsPoints)                                                    \
     ID(TextureWithoutSource)                                              \
     ID(TooManyUvSets)                                                     \
+    ID(VolumeTextureIgnored)                                              \
     ID(FlatTriangle)                                                      \
     ID(BadNormal)                                                         \
     ID(HiddenLight)                                                       \
@@ -96,6 +97,8 @@
     ID(NonFinitePixels)                                                   \
     ID(TransparencyCap)                                                   \
     ID(MediaCap)                                                          \
+    ID(ScatteringCap)                                                     \
+    ID(UnreachedVolume) /* by point, spot and directional lights */       \
     ID(LightClamped)                                                      \
     ID(TargetUnreachable)                                                 \
     ID(PartsIgnored)                                                      \

@@ -186,12 +186,21 @@ Json environmentOf(const PreparedScene& prepared)
     return json;
 }
 
+float anisotropyOf(const FlatScene& flat, std::uint32_t medium)
+{
+    return flat.scattering.empty() ? 0.0F : flat.scattering[medium - 1].anisotropy;
+}
+
 Json mediaOf(const PreparedScene& prepared)
 {
     Json media = Json::array();
-    for (const MediumData& medium : prepared.flat.media) {
+    for (std::uint32_t i = 1; i <= prepared.flat.media.size(); ++i) {
+        const MediumData& medium = prepared.flat.media[i - 1];
+        const vec3 absorption = absorptionOf(prepared.flat, i), scattering = scatteringOf(prepared.flat, i);
         media.append({{"ior", medium.ior},
-                      {"absorption", Json::array({medium.absorption.r, medium.absorption.g, medium.absorption.b})},
+                      {"absorption", Json::array({absorption.r, absorption.g, absorption.b})},
+                      {"scattering", Json::array({scattering.r, scattering.g, scattering.b})},
+                      {"anisotropy", anisotropyOf(prepared.flat, i)},
                       {"spread", medium.spread}});
     }
     return media;
@@ -322,10 +331,15 @@ void printLooks(const PreparedScene& prepared)
         std::cout << "  caustics: by light paths from " << prepared.flat.causticLights << " lights to " << prepared.flat.causticTargets
                   << " places with specular surfaces\n";
     }
-    for (std::size_t i = 0; i < prepared.flat.media.size(); ++i) {
-        const MediumData& medium = prepared.flat.media[i];
-        std::cout << "  medium " << i + 1 << ": index " << threeDigits(static_cast<double>(medium.ior)) << ", absorption "
-                  << shortPointText(glm::dvec3(medium.absorption)) << " per metre" << (medium.spread > 0.0F ? ", dispersive" : "") << '\n';
+    for (std::uint32_t i = 1; i <= prepared.flat.media.size(); ++i) {
+        const MediumData& medium = prepared.flat.media[i - 1];
+        std::cout << "  medium " << i << ": index " << threeDigits(static_cast<double>(medium.ior)) << ", absorption "
+                  << shortPointText(glm::dvec3(absorptionOf(prepared.flat, i))) << " per metre";
+        if (const vec3 scattering = scatteringOf(prepared.flat, i); scattering != vec3(0.0F)) {
+            std::cout << ", scattering " << shortPointText(glm::dvec3(scattering)) << " per metre, anisotropy "
+                      << threeDigits(static_cast<double>(anisotropyOf(prepared.flat, i)));
+        }
+        std::cout << (medium.spread > 0.0F ? ", dispersive" : "") << '\n';
     }
 }
 

@@ -29,6 +29,7 @@ constexpr const char* kEnds[] = {
     "ends: absorbed",
     "ends: the next ray could only add light already sampled here",
     "ends: roulette",
+    "ends: within the volume, by roulette or after too many scatterings",
 };
 
 // By PathNote::lobe.
@@ -103,7 +104,7 @@ void printMaterial(const ReplayReport& report, const PathNote& note)
     if (note.medium != 0) {
         const MediumData& medium = report.prepared.flat.media[note.medium - 1];
         std::cout << "\n  reached through medium " << note.medium << ": index " << exactText(medium.ior) << ", absorption "
-                  << toText(medium.absorption) << " per metre";
+                  << toText(absorptionOf(report.prepared.flat, note.medium)) << " per metre";
     }
     std::cout << "\n";
 }
@@ -118,16 +119,21 @@ Json materialJson(const ReplayReport& report, const PathNote& note)
     json.set("alpha", note.alpha);
     json.set("medium", nullptr);
     if (note.medium != 0) {
-        const MediumData& medium = report.prepared.flat.media[note.medium - 1];
+        const vec3 absorption = absorptionOf(report.prepared.flat, note.medium);
         json.set("medium", {{"number", note.medium},
-                            {"ior", medium.ior},
-                            {"absorption", Json::array({medium.absorption.r, medium.absorption.g, medium.absorption.b})}});
+                            {"ior", report.prepared.flat.media[note.medium - 1].ior},
+                            {"absorption", Json::array({absorption.r, absorption.g, absorption.b})}});
     }
     return json;
 }
 
+std::uint32_t countScatterings(const PathVertex& vertex) { return static_cast<std::uint32_t>(std::max(0.0F, -vertex.before.cosine)); }
+
 void printArrival(const PathVertex& vertex)
 {
+    if (const std::uint32_t count = countScatterings(vertex)) {
+        std::cout << "  after " << counted(count, "scattering") << " in the volume\n";
+    }
     std::cout << "  ray from pdf " << (vertex.before.pdf > 0.0F ? exactText(vertex.before.pdf) + " per sr" : "0 (camera or delta lobe)")
               << ", throughput " << toText(vertex.before.throughput) << "\n";
     // The light that the ray has hit may have weight 0, since light sampling finds it as well.
@@ -245,6 +251,7 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
                  {"direction", jsonOf(vertex.ray.direction)},
                  {"pdf", vertex.before.pdf},
                  {"throughput", jsonOf(vertex.before.throughput)},
+                 {"scatterings", countScatterings(vertex)},
                  {"surface", surfaceJson(report, vertex)},
                  {"emission", emission},
                  {"sampledLights", sampled},

@@ -56,18 +56,26 @@ static_assert(sizeof(FlatLight) == kLightTexels * sizeof(uvec4));
 static_assert(sizeof(PrincipledData) == kPrincipledTexels * sizeof(uvec4));
 static_assert(sizeof(LayersData) == kLayersTexels * sizeof(uvec4));
 static_assert(sizeof(MediumData) == kMediumTexels * sizeof(uvec4));
+static_assert(sizeof(ScatteringData) == kScatteringTexels * sizeof(uvec4));
 static_assert(sizeof(TextureData) == kTextureTexels * sizeof(uvec4));
 static_assert(sizeof(InstanceData) == kInstanceTexels * sizeof(uvec4));
 static_assert(sizeof(LightNode) == kLightNodeTexels * sizeof(uvec4));
 
 }  // namespace
 
+vec3 scatteringOf(const FlatScene& scene, std::uint32_t medium)
+{
+    return scene.scattering.empty() ? vec3(0.0F) : scene.media[medium - 1].extinction * scene.scattering[medium - 1].albedo;
+}
+
+vec3 absorptionOf(const FlatScene& scene, std::uint32_t medium) { return scene.media[medium - 1].extinction - scatteringOf(scene, medium); }
+
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.primitiveRefs) + bytesOf(scene.triangles) + bytesOf(scene.vertices) +
            bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) +
-           bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.albedos) + bytesOf(scene.caustics) +
-           bytesOf(scene.instances) + textureBytes(scene);
+           bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.scattering) + bytesOf(scene.albedos) +
+           bytesOf(scene.caustics) + bytesOf(scene.instances) + textureBytes(scene);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)
@@ -94,6 +102,7 @@ std::uint64_t fingerprint(const FlatScene& scene)
     print.add(scene.layers);
     print.add(scene.textures);
     print.add(scene.media);
+    print.add(scene.scattering);
     if (!scene.images->texels.empty()) {
         print.add(std::vector<std::uint64_t>{scene.images->fingerprint});
     }

@@ -67,7 +67,8 @@ struct FlatScene {
     std::vector<LayersData> layers;          // behind these
     std::vector<TextureData> textures;       // behind these
     std::vector<MediumData> media;           // behind these, from texel firstMedium on
-    std::uint32_t firstMedium = 0;
+    std::vector<ScatteringData> scattering;  // behind these, from texel firstScattering on; empty without kFeatureScattering
+    std::uint32_t firstMedium = 0, firstScattering = 0;
     std::vector<std::uint32_t> mediumOfMaterial;  // its number; 0: none, or paths need not know. Not on the device
     std::vector<FeatureMask> materialFeatures;    // what each material needs, used or not; not on the device
     std::shared_ptr<const PackedImages> images = std::make_shared<PackedImages>();  // never null
@@ -96,6 +97,10 @@ struct FlatScene {
 };
 
 // How many bytes the scene takes on the device.
+// Of a medium by its number, 1/m.
+vec3 scatteringOf(const FlatScene& scene, std::uint32_t medium);
+vec3 absorptionOf(const FlatScene& scene, std::uint32_t medium);
+
 std::uint64_t sizeInBytes(const FlatScene& scene);
 
 // How many of these bytes are images and environment maps, and images alone.

@@ -142,6 +142,7 @@ public:
         }
         features_ |= data.type == kMirror ? kFeatureMirror : data.type == kDielectric ? kFeatureDielectric : 0U;
         features_ |= tracked ? kFeatureMedia | (media_.disperses ? kFeatureDispersion : 0U) : 0U;
+        features_ |= tracked && scatters(media_.scattering[media_.ofMaterial[id] - 1]) ? kFeatureScattering : 0U;
         features_ |= material.unlit ? kFeatureUnlit : thin ? kFeatureThinWalls : 0U;
         flat_.materials.push_back(data);
         flat_.materialFeatures.push_back(features_);
@@ -172,11 +173,17 @@ public:
             flat_.mediumOfMaterial = std::move(media_.ofMaterial);
             flat_.media = std::move(media_.media);
         }
+        if (std::ranges::any_of(media_.scattering, scatters)) {
+            flat_.scattering = std::move(media_.scattering);
+        }
         flat_.firstMedium = firstTexture + static_cast<std::uint32_t>(flat_.textures.size() * kTextureTexels);
+        flat_.firstScattering = flat_.firstMedium + static_cast<std::uint32_t>(flat_.media.size() * kMediumTexels);
     }
 
 private:
     static constexpr float kUnusedIor = 1.5F;
+
+    static bool scatters(const ScatteringData& data) { return data.albedo != vec3(0.0F); }
 
     // Images of one colour become part of the factors.
     void foldTextures(Material& m) const
@@ -314,12 +321,13 @@ private:
     std::uint32_t texelCount_ = 0;                        // of these
 };
 
+bool isSmooth(const Material& m) { return m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness]; }
+
 }  // namespace
 
 std::uint32_t chooseMaterialType(const Material& m)
 {
-    const bool plain = findLayers(m) == 0;
-    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness];
+    const bool plain = findLayers(m) == 0, smooth = isSmooth(m);
     if (m.unlit) {
         return kUnlit;
     }
@@ -334,10 +342,14 @@ std::uint32_t chooseMaterialType(const Material& m)
 
 bool passesStraight(const Material& m)
 {
-    const bool smooth = m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness];
     const bool plain = (findLayers(m) & ~kFeatureDiffuseTransmission) == kFeatureTransmission && !m.textures[kSlotSpecular] &&
                        !m.textures[kSlotSpecularColor] && !m.glossy;
-    return !m.unlit && !m.solid && m.metallic < 1.0F && smooth && plain;
+    return !m.unlit && !m.solid && m.metallic < 1.0F && isSmooth(m) && plain;
+}
+
+bool scattersBehindSmoothBoundary(const Material& m)
+{
+    return m.solid && m.scattering != glm::vec3(0.0F) && m.transmission > 0.0F && isSmooth(m);
 }
 
 void flattenMaterials(FlatScene& flat, const Scene& scene, const std::vector<bool>& colored)

@@ -13,6 +13,9 @@ std::uint32_t chooseMaterialType(const Material& material);
 // layer or texture changes.
 bool passesStraight(const Material& material);
 
+// Whether light scatters in the solid and gets there through a smooth boundary: lights are then found by rays that leave it, or not at all.
+bool scattersBehindSmoothBoundary(const Material& material);
+
 // Fills materials, principled, layers, textures, media and images of `flat`; the images may be those of another time. An image of one
 // colour becomes part of the factor that it multiplies. colored[i]: some mesh of material i has vertex colours.
 void flattenMaterials(FlatScene& flat, const Scene& scene, const std::vector<bool>& colored);

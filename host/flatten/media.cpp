@@ -5,6 +5,7 @@
 #include "host/scene/placed_mesh.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace glim {
 namespace {
@@ -55,21 +56,25 @@ public:
         if (!source.solid || number != 0) {
             return number;
         }
-        const MediumData medium{source.absorption, source.ior, (source.ior - 1.0F) * source.dispersion / 20.0F, vec3(0.0F)};
-        const auto known = std::ranges::find_if(found_.media, [&medium](const MediumData& other) {
-            return other.absorption == medium.absorption && other.ior == medium.ior && other.spread == medium.spread;
-        });
-        number = static_cast<std::uint32_t>(known - found_.media.begin()) + 1;
-        if (known == found_.media.end()) {
+        const MediumData medium{source.absorption + source.scattering, source.ior, (source.ior - 1.0F) * source.dispersion / 20.0F,
+                                vec3(0.0F)};
+        const ScatteringData scattering = scatteringOf(source);
+        std::size_t known = 0;
+        while (known < found_.media.size() && !isKnown(known, medium, scattering)) {
+            ++known;
+        }
+        number = static_cast<std::uint32_t>(known) + 1;
+        if (known == found_.media.size()) {
             found_.media.push_back(medium);
+            found_.scattering.push_back(scattering);
         }
         if (found_.media.size() > kMaxMedia) {
             throw InputError(MessageId::TooLarge,
                              {part::file(scene_.file), ": more than ", part::value(std::to_string(kMaxMedia)),
-                              " different volumes (index, attenuation, dispersion); expected ", part::expected("fewer")});
+                              " different volumes (index, attenuation, scattering, dispersion); expected ", part::expected("fewer")});
         }
         found_.disperses = found_.disperses || medium.spread > 0.0F;
-        found_.tracked = found_.tracked || found_.disperses || medium.absorption != vec3(0.0F);
+        found_.tracked = found_.tracked || found_.disperses || medium.extinction != vec3(0.0F);
         return number;
     }
 
@@ -93,6 +98,22 @@ public:
     }
 
 private:
+    // Without scattering the anisotropy tells no media apart.
+    static ScatteringData scatteringOf(const Material& source)
+    {
+        const vec3 extinction = source.absorption + source.scattering;
+        const vec3 albedo = source.scattering / glm::max(extinction, vec3(std::numeric_limits<float>::min()));
+        return {glm::min(albedo, vec3(1.0F)), albedo == vec3(0.0F) ? 0.0F : source.scatterAnisotropy};
+    }
+
+    bool isKnown(std::size_t i, const MediumData& medium, const ScatteringData& scattering) const
+    {
+        const MediumData& other = found_.media[i];
+        const ScatteringData& its = found_.scattering[i];
+        return other.extinction == medium.extinction && other.ior == medium.ior && other.spread == medium.spread &&
+               its.albedo == scattering.albedo && its.anisotropy == scattering.anisotropy;
+    }
+
     const Scene& scene_;
     Media found_;
 };

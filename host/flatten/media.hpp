@@ -9,9 +9,11 @@
 namespace glim {
 
 struct Media {
-    std::vector<MediumData> media;          // number 1 is the first; equal ones are one
-    std::vector<std::uint32_t> ofMaterial;  // number by material; 0: none
-    // Whether paths have to know which medium they are in: some medium absorbs or disperses, or solids of different media overlap.
+    std::vector<MediumData> media;           // number 1 is the first; equal ones are one
+    std::vector<ScatteringData> scattering;  // of each of them
+    std::vector<std::uint32_t> ofMaterial;   // number by material; 0: none
+    // Whether paths have to know which medium they are in: some medium absorbs, scatters or disperses, or solids of different media
+    // overlap.
     bool tracked = false;
     bool disperses = false;
 };

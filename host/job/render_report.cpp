@@ -7,12 +7,14 @@
 #include "host/render/film_file.hpp"
 #include "host/render/parameters.hpp"
 #include "host/text.hpp"
+#include "shaders/shared/limits.h"
 
 #include <sys/resource.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numeric>
 #include <optional>
 #include <ostream>
 
@@ -207,6 +209,8 @@ Json statisticsOf(const RenderReport& report)
             {"overflows", s.overflows},
             {"transparencyCaps", s.transparencyCaps},
             {"mediaCaps", s.mediaCaps},
+            {"scatteringCaps", s.scatteringCaps},
+            {"cutThroughput", s.cutThroughput},
             {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
             {"look", lookOf(report)},
             {"clampIndirect", clampingOf(report.film, report.options)},
@@ -295,6 +299,11 @@ void printSuspects(const RenderReport& report, std::ostream& out)
     }
 }
 
+double countSamples(const Film& film)
+{
+    return std::accumulate(film.pixels.begin(), film.pixels.end(), 0.0, [](double sum, const PixelMoments& p) { return sum + p.count; });
+}
+
 }  // namespace
 
 void warnOfPicture(const Film& film, const RenderStatistics& statistics, const RenderSettings& settings)
@@ -325,6 +334,12 @@ void warnOfPicture(const Film& film, const RenderStatistics& statistics, const R
         warn(MessageId::MediaCap,
              {part::value(std::to_string(statistics.mediaCaps)),
               " rays entered a solid within four others and forgot the outermost, so what these rays meet there is wrong."});
+    }
+    if (statistics.scatteringCaps > 0) {
+        warn(MessageId::ScatteringCap,
+             {part::value(std::to_string(statistics.scatteringCaps)), " paths scattered ", part::expected(std::to_string(kMaxScatterings)),
+              " times between two surfaces and ended there; of light that is the same all around, the picture lacks ",
+              part::value(format("%.2g %%", 100.0 * statistics.cutThroughput / countSamples(film))), "."});
     }
     if (std::isfinite(settings.clampIndirect)) {
         const ClampedEnergy energy = computeClampedEnergy(film);

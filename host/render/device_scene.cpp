@@ -57,6 +57,7 @@ std::vector<uvec4> materialTexels(const FlatScene& scene)
     append(scene.layers);
     append(scene.textures);
     append(scene.media);
+    append(scene.scattering);
     return texels;
 }
 

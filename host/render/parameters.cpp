@@ -62,6 +62,7 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.firstTangent = scene.firstTangent;
     parameters_.firstColor = scene.firstColor;
     parameters_.firstMedium = scene.firstMedium;
+    parameters_.firstScattering = scene.firstScattering;
     parameters_.hidesEnvironment = scene.hidesEnvironment || settings.catcher ? 1 : 0;
     parameters_.darkensObjects = settings.catcher && !settings.catcherReflections ? 1 : 0;
     parameters_.environmentSize = scene.environmentMap->size;

@@ -2,6 +2,7 @@
 //
 //   generate_rays
 //   per bounce:  trace_closest -> shade_surface -> trace_shadow (where lights are sampled)
+//     or, where volumes scatter, per part of a walk, until no path is left
 //   accumulate, which does nothing while a path is alive
 //
 // The persistent schedule, in which one kernel traces path after path to its end:
@@ -197,7 +198,7 @@ void PassTracer::recordRound(Recording& recording, const Bindings& bindings, con
     recording.dispatchIndirect(*kernels().traceClosest, bindings, pass, rounds, groupsOfPaths(pass.round));
     recording.dispatchIndirect(*kernels().shadeSurface, bindings, pass, rounds, groupsOfPaths(pass.round));
     const PathLengths lengths = pathLengths(resources_.settings);
-    if (samplesLights(pass.bounce, lengths.maxBounces, lengths.min, resources_.lightCount)) {
+    if (resources_.scatters || samplesLights(pass.bounce, lengths.maxBounces, lengths.min, resources_.lightCount)) {
         recording.dispatchIndirect(*kernels().traceShadow, bindings, pass, rounds, groupsOfShadowRays(pass.round));
     }
 }

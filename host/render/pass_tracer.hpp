@@ -70,7 +70,7 @@ private:
     std::uint32_t portion() const;
     std::uint32_t pathsPerThread() const { return rulesOf(resources_.device.description().deviceClass).pathsPerThread; }
     bool isPersistent() const { return kernels().tracePaths.has_value(); }
-    std::uint32_t lastBounce() const { return isPersistent() ? ~0U : pathLengths(resources_.settings).maxBounces; }
+    std::uint32_t lastBounce() const { return isPersistent() || resources_.scatters ? ~0U : pathLengths(resources_.settings).maxBounces; }
     const KernelSet& kernels() const { return resources_.kernels(); }
 
     RenderResources& resources_;

@@ -3,9 +3,11 @@
 #include "host/clock.hpp"
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
+#include "host/flatten/flatten_materials.hpp"
 #include "host/flatten/start_media.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
+#include "host/scene/warnings.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -45,6 +47,21 @@ void sayWarnings(const Scene& scene, const Scene& previous)
     }
 }
 
+void addVolumeWarnings(Scene& scene)
+{
+    Warnings warnings;
+    const std::vector<bool> used = findUsedMaterials(scene);
+    for (std::size_t i = 0; i < scene.materials.size() && !scene.lights.empty(); ++i) {
+        if (used[i] && scattersBehindSmoothBoundary(scene.materials[i])) {
+            warnings.add(
+                MessageId::UnreachedVolume,
+                "point, spot and directional lights do not reach what scatters behind a smooth boundary, which a roughness of 0.05 opens",
+                "materials[" + std::to_string(i) + "] (" + inQuotes(scene.materials[i].name) + ")");
+        }
+    }
+    std::ranges::move(warnings.messages(), std::back_inserter(scene.warnings));
+}
+
 using Stage = std::function<void(const std::string&)>;
 
 // Loads and prepares the scene of `file`. A lack of memory becomes an InputError.
@@ -72,6 +89,7 @@ PreparedScene prepare(Scene scene, SplitRule split, Clock::time_point start, Pre
         placeSharedMeshes(prepared.scene, prepared.primitives);
     }
     prepared.scene.warnings.insert(prepared.scene.warnings.end(), prepared.primitives.warnings.begin(), prepared.primitives.warnings.end());
+    addVolumeWarnings(prepared.scene);
     sayWarnings(prepared.scene, previous.scene);
     const Clock::time_point loaded = Clock::now();
     if (first) {

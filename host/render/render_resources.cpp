@@ -29,6 +29,7 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
       settings(asked),
       schedule(chooseSchedule(asked, of.description())),
       lightCount(static_cast<std::uint32_t>(scene.lights.size())),
+      scatters((scene.features & kFeatureScattering) != 0 && !usesCourseEstimators(asked)),
       shared(std::move(resources)),
       parameters(of, scene, camera, asked),
       course(of, scene, asked),

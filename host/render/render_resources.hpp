@@ -68,6 +68,7 @@ struct RenderResources {
     const RenderSettings settings;
     const Schedule schedule;  // never Auto
     const std::uint32_t lightCount;
+    const bool scatters;  // some volume does, and rounds are no bounces: walks take several
     const std::shared_ptr<SharedResources> shared;
     DeviceParameters parameters;
     const CourseEstimators course;

@@ -331,6 +331,8 @@ void Renderer::readCounters()
     statistics_.overflows = status.overflows;
     statistics_.transparencyCaps = status.transparencyCaps;
     statistics_.mediaCaps = status.mediaCaps;
+    statistics_.scatteringCaps = status.scatteringCaps;
+    statistics_.cutThroughput = static_cast<double>(wide(status.cutThroughput)) * static_cast<double>(kCutUnit);
     statistics_.nonFinite = status.nonFinite;
     statistics_.located.assign(status.located, status.located + std::min(status.nonFinite, kMaxLocated));
     statistics_.kernels = resources_->statistics;

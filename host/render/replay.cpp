@@ -29,9 +29,14 @@ public:
         const bool whole = at.lightRound.endRef == refCount_;  // brute force: the last of several dispatches
         if (kernel == "trace_closest" || (kernel == "course_trace_closest" && whole)) {
             alive_ = paths.readRounds()[at.pass.round].paths.count > 0;
-            if (alive_) {
-                beginVertex(at.pass, paths);
+            isScattered_ = alive_ && firstOf<PathHit>(paths.hits()).primitiveRef == kScatteredRef;
+            if (alive_ && !isScattered_) {
+                beginVertex(paths);
             }
+            return;
+        }
+        if (isScattered_) {
+            recordScattering(kernel, at.pass, paths);
             return;
         }
         if (!alive_) {
@@ -54,12 +59,19 @@ public:
     }
 
 private:
-    void beginVertex(const Pass& pass, PathBuffers& paths)
+    void recordScattering(const std::string& kernel, const Pass& pass, PathBuffers& paths)
+    {
+        if (kernel == "shade_surface" && !vertices_.empty() && paths.readRounds()[pass.round + 1].paths.count == 0) {
+            vertices_.back().end = PathEnd::WithinVolume;
+        }
+    }
+
+    void beginVertex(PathBuffers& paths)
     {
         PathVertex& vertex = vertices_.emplace_back();
-        vertex.bounce = pass.bounce;
         vertex.ray = firstOf<PathRay>(paths.rays());
         vertex.before = firstOf<PathState>(paths.states());
+        vertex.bounce = vertex.before.bounce;
         vertex.hit = firstOf<PathHit>(paths.hits());
         paths.takeNote();
         paths.takeRadiance();
@@ -97,7 +109,7 @@ private:
         const bool continues = paths.readRounds()[pass.round + 1].paths.count > 0;
         vertex.end = continues                                    ? PathEnd::Continues
                      : vertex.hit.primitiveRef == kNoPrimitiveRef ? PathEnd::Missed
-                     : pass.bounce == maxBounces_                 ? PathEnd::LastBounce
+                     : vertex.bounce == maxBounces_               ? PathEnd::LastBounce
                      : vertex.bsdf.continuation > 0.0F            ? PathEnd::Roulette
                      : vertex.bsdf.throughput == glm::vec3(0.0F)  ? PathEnd::Absorbed
                                                                   : PathEnd::Redundant;
@@ -106,7 +118,7 @@ private:
     std::vector<PathVertex>& vertices_;
     std::uint32_t maxBounces_, refCount_;
     ShadowRay ray_{};
-    bool alive_ = false;
+    bool alive_ = false, isScattered_ = false;
 };
 
 // The settings for one path, which does not depend on the others of its render.

@@ -32,14 +32,15 @@ enum class PathEnd {
     LastBounce,  // has met as many surfaces as --bounces or --paths allow
     Absorbed,    // scattered with weight 0: the surface is black, or the direction leaves on the wrong side
     Redundant,   // the next ray could only have hit light that was sampled already
-    Roulette
+    Roulette,
+    WithinVolume  // scattered there, and ended by roulette or after too many scatterings
 };
 
 // A hit, or the miss that ends the path.
 struct PathVertex {
     std::uint32_t bounce = 0;
     PathRay ray{};       // the ray that led here
-    PathState before{};  // throughput here, pdf of the ray
+    PathState before{};  // throughput here, pdf of the ray; where the ray comes from a walk through a volume, how often it scattered there
     PathHit hit{};
     PathNote surface{};      // the surface, and the light that the ray has hit
     PathRadiance emitted{};  // the radiance that this light added

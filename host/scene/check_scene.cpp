@@ -122,9 +122,12 @@ void SceneCheck::checkMaterials() const
                     isShare(material.clearcoatRoughness) && isShare(material.sheenRoughness) && isShare(material.anisotropy) &&
                     isShare(material.iridescence),
                 MessageId::OutOfRange, "material", i, "a share or a roughness of a layer", "outside 0 to 1");
-        require(isReflectance(material.diffuseTransmissionColor) && isReflectance(material.sheenColor) && isRadiance(material.absorption),
+        require(isReflectance(material.diffuseTransmissionColor) && isReflectance(material.sheenColor) && isRadiance(material.absorption) &&
+                    isRadiance(material.scattering),
                 MessageId::OutOfRange, "material", i, "a colour of a layer",
-                "outside 0 to 1, or an absorption that is negative or not finite");
+                "outside 0 to 1, or an absorption or a scattering that is negative or not finite");
+        require(std::abs(material.scatterAnisotropy) < 1.0F, MessageId::OutOfRange, "material", i, "an anisotropy of scattering",
+                "outside -1 to 1");
         require(isNumber(material.dispersion) && isNumber(material.iridescenceThicknessMinimum) &&
                     isNumber(material.iridescenceThicknessMaximum) && std::isfinite(material.anisotropyRotation) &&
                     std::isfinite(material.clearcoatNormalScale) && std::isfinite(material.iridescenceIor) &&

@@ -60,7 +60,10 @@ struct Material {
     bool thick = false;          // has a volume, even if nothing transmits
     bool solid = false;          // what transmits encloses a medium; else it is a thin wall
     glm::vec3 absorption{0.0F};  // of the medium, 1/m
-    float dispersion = 0.0F;     // of the medium: 20 / Abbe number
+    // KHR_materials_scatter and its forerunners, of the medium: 1/m, and the mean cosine of a deflection.
+    glm::vec3 scattering{0.0F};
+    float scatterAnisotropy = 0.0F;
+    float dispersion = 0.0F;  // of the medium: 20 / Abbe number
     float diffuseTransmission = 0.0F;
     glm::vec3 diffuseTransmissionColor{1.0F};
     // _clearcoat, _sheen, _anisotropy, _iridescence.

@@ -31,7 +31,8 @@ float misWeightOfSample(float lightPdf, float bsdfPdf);
 // Radiance of the environment that an escaping ray has hit, times its MIS weight.
 vec3 weightedEnvironment(PathRay ray, PathState state)
 {
-    if (state.bounce == 0u && render.hidesEnvironment != 0u) {
+    bool scattered = hasFeature(kFeatureScattering) && (ray.media & kHasScattered) != 0u;
+    if (state.bounce == 0u && render.hidesEnvironment != 0u && !scattered) {
         return vec3(0.0);
     }
     vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
@@ -45,7 +46,7 @@ vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray,
     if (hasFeature(kFeatureLines) && si.light == kUnsampledLight) {
         return emission;
     }
-    if (hasFeature(kFeatureCaustics) && !(state.pdf > 0.0) && (ray.media & kIsDiffuseFirst) != 0u) {
+    if (hasFeature(kFeatureCaustics) && !(state.pdf > 0.0) && (ray.media & (kIsDiffuseFirst | kHasScattered)) == kIsDiffuseFirst) {
         return vec3(0.0);  // a caustic, which light paths have
     }
     if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {

@@ -9,6 +9,7 @@
 #include "lib/portable.glsl"
 #include "material.glsl"
 #include "pass.glsl"
+#include "scattering.glsl"
 
 // The share of light that is left after `lightDistance` metres within a ray's innermost medium.
 vec3 mediaTransmittance(uint media, float lightDistance)
@@ -17,8 +18,14 @@ vec3 mediaTransmittance(uint media, float lightDistance)
     if (!hasFeature(kFeatureMedia) || medium == 0u) {
         return vec3(1.0);
     }
-    vec3 depth = fetchMedium(render.firstMedium, medium).absorption * min(lightDistance, 1e30);
+    vec3 depth = fetchMedium(render.firstMedium, medium).extinction * min(lightDistance, 1e30);
     return vec3(portableExp(-depth.r), portableExp(-depth.g), portableExp(-depth.b));
+}
+
+// The same of a path's ray. Where the medium scatters, its throughput has it (throughputAt).
+vec3 pathTransmittance(uint media, float lightDistance)
+{
+    return scatters(media) ? vec3(1.0) : mediaTransmittance(media, lightDistance);
 }
 
 // The share that is left along a shadow ray that leaves the surface to the side of wo or, through a rough one, to the other.

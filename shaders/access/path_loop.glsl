@@ -1,13 +1,14 @@
 // The loop of the kernels that trace paths to their end. A thread takes entries of the queue, one after the other. Paths beyond its limits
 // go into the next queue as they are.
 // A kernel includes this behind its struct Path, which has at least slot, ray, state and light. It defines the functions that are declared
-// here, the macros pathSides and connectionSides (of single-sided surfaces, for the path's rays and for those that connect it to a
-// light or to the camera), kSeenByCamera (what these meet is seen by it) and kDimmingFeatures (with which surfaces on the way dim the
-// path).
+// here, the macros pathSides and connectionSides (of single-sided surfaces, for the path's rays and for those that connect it to a light or
+// to the camera), and the constants kSeenByCamera (what these meet is seen by it), kDimmingFeatures (with which surfaces on the way dim the
+// path) and kScatters (whether it scatters in media).
 #ifndef GLIM_ACCESS_PATH_LOOP
 #define GLIM_ACCESS_PATH_LOOP
 
 #include "paths.glsl"
+#include "scattering.glsl"
 #include "status.glsl"
 #include "traverse.glsl"
 
@@ -48,12 +49,17 @@ void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pix
     }
 }
 
-// Traces the path to its next surface. False if the path ends. The loop goes on for a ray that connects it and meets alpha.
+// Traces the path to its next surface or scattering. False if the path ends. The loop goes on for a ray that connects it and meets alpha.
 bool advance(inout Path path, inout Work work)
 {
     Steps steps = Steps(0u, 0u);
     TracedRay traced = TracedRay(makeAlphaRay(path.ray), vec3(0.0), 0u, 0u);
     traced.alphaRay.query.sides = pathSides(path);
+    float freePath = kInfinity;
+    if (hasFeature(kFeatureScattering) && kScatters) {
+        freePath = sampleFreePath(path.id, path.ray, path.state);
+        traced.alphaRay.query.tMax = reachOf(path.ray, freePath);
+    }
     bool alive = false;
     bool again = false;
     do {
@@ -65,11 +71,17 @@ bool advance(inout Path path, inout Work work)
             }
         } else {
             ++work.closest;
+            if (hasFeature(kFeatureScattering) && kScatters) {
+                met.hit = meetFirst(path.ray, met.hit, freePath);
+                path.state.throughput = throughputAt(path.ray, met.hit, path.state.throughput);
+            }
             if (hasFeature(kDimmingFeatures)) {
                 path.state.throughput *= met.weight;
             }
             if (met.hit.primitiveRef == kNoPrimitiveRef) {
                 visitMiss(path);
+            } else if (kScatters && isScattered(met.hit)) {
+                alive = scatterPath(path.id, met.hit.t, path.ray, path.state);
             } else {
                 alive = visitSurface(path, met.hit, work, steps, traced);
                 again = traced.alphaRay.isShadow;

@@ -37,7 +37,7 @@ float misWeightOfHit(PathState state, float lightPdf)
 vec3 shadeMiss(PathRay ray, PathState state)
 {
     vec3 environment = state.throughput * weightedEnvironment(ray, state);
-    return hasFeature(kFeatureMedia) ? environment * mediaTransmittance(ray.media, kInfinity) : environment;
+    return hasFeature(kFeatureMedia) ? environment * pathTransmittance(ray.media, kInfinity) : environment;
 }
 
 float misWeightOfSample(float lightPdf, float bsdfPdf)
@@ -77,7 +77,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     SurfaceMaterial material = makeSurfaceMaterial(si);
     uint arrivedIn = ray.media;
     if (hasFeature(kFeatureMedia)) {
-        state.throughput *= mediaTransmittance(ray.media, hit.t);
+        state.throughput *= pathTransmittance(ray.media, hit.t);
         setIndices(id, si, material, ray.media, state.throughput);
     }
     Bsdf bsdf = makeBsdf(si, material, wo);

@@ -132,6 +132,12 @@ MediumData fetchMedium(uint firstMedium, uint medium)
     return MediumData(a.xyz, a.w, b.x, b.yzw);
 }
 
+ScatteringData fetchScattering(uint firstScattering, uint medium)
+{
+    vec4 a = uintBitsToFloat(texelFetch(sceneMaterials, int(firstScattering + (medium - 1u) * kScatteringTexels)));
+    return ScatteringData(a.xyz, a.w);
+}
+
 FlatLight fetchLight(uint light)
 {
     int at = int(light * kLightTexels);

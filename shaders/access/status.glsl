@@ -33,6 +33,16 @@ void reportMediaCap()
     atomicAdd(status.mediaCaps, 1u);
 }
 
+// Of a path with `cut` of its throughput left, in units of kCutUnit.
+void reportScatteringCap(uint cut)
+{
+    atomicAdd(status.scatteringCaps, 1u);
+    uint before = atomicAdd(status.cutThroughput.x, cut);
+    if (before + cut < before) {
+        atomicAdd(status.cutThroughput.y, 1u);
+    }
+}
+
 void reportSplatOverflow()
 {
     atomicAdd(status.splatOverflows, 1u);

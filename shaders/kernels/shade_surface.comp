@@ -1,6 +1,7 @@
 // One thread is one entry of the active queue. Shades what its ray has met: adds the light that the ray itself has hit, samples one light
 // and queues a shadow ray to it, and samples the BSDF with roulette and queues the next ray. One dispatch does both, so that interaction,
 // material and BSDF are made once.
+// A path that has scattered last goes on.
 // Reads the scene, the queue, hits. Updates rays, states, radiance. Writes first hits, shadow rays, the note; appends to the shadow
 // queue and the next queue.
 #version 460
@@ -22,33 +23,43 @@
 
 void visitMiss(uint slot, PathRay ray, PathState state)
 {
-    if (pass.bounce == 0u) {
+    if (bounceOf(state) == 0u) {
         storeFirstHit(slot, makeNoFirstHit());
     }
     if (hasEnvironment()) {
-        addRadiance(slot, shadeMiss(ray, state), pass.bounce);
+        addRadiance(slot, shadeMiss(ray, state), bounceOf(state));
+    }
+}
+
+// Of a path that has scattered, and walks on in the next round unless it has ended.
+void visitScattering(uint slot, PathState state)
+{
+    if (state.throughput != vec3(0.0)) {
+        queuePath(slot, 1u);
     }
 }
 
 void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
 {
     VertexResult vertex = shadeSurface(makeSampleId(slot), ray, hit, state);
-    if (pass.bounce == 0u) {
+    if (bounceOf(state) == 0u) {
         storeFirstHit(slot, vertex.firstHit);
     }
-    if (hasFeature(kFeatureCatcher) && endsAtObject(slot, pass.bounce, vertex.firstHit)) {
+    if (hasFeature(kFeatureCatcher) && endsAtObject(slot, bounceOf(state), vertex.firstHit)) {
         return;
     }
     if (hasEmissiveSurfaces()) {
-        addRadiance(slot, vertex.emitted, pass.bounce);
+        addRadiance(slot, vertex.emitted, bounceOf(state));
     }
     if (vertex.hasShadowRay) {
         storeShadowRay(slot, vertex.shadowRay);
         queueShadowRay(slot);
     }
+    if (vertex.hasNextRay || (hasFeature(kFeatureScattering) && vertex.hasShadowRay)) {
+        storeState(slot, vertex.state);  // trace_shadow reads the bounce
+    }
     if (vertex.hasNextRay) {
         storeRay(slot, vertex.ray);
-        storeState(slot, vertex.state);
         queuePath(slot, 1u);
     }
 }
@@ -63,6 +74,8 @@ void main()
         PathState state = fetchState(slot);
         if (hit.primitiveRef == kNoPrimitiveRef) {
             visitMiss(slot, ray, state);
+        } else if (isScattered(hit)) {
+            visitScattering(slot, state);
         } else {
             visitSurface(slot, ray, hit, state);
         }

@@ -31,6 +31,7 @@ struct Path {
 #define connectionSides(path) kBacks
 const bool kSeenByCamera = true;
 const FeatureMask kDimmingFeatures = kFeatureThinWalls | kFeatureSingleSided;
+const bool kScatters = false;
 
 #include "access/path_loop.glsl"
 

@@ -28,6 +28,7 @@ struct Path {
 #define connectionSides(path) sidesOfRay((path).slot, (path).state.bounce + 1u)
 const bool kSeenByCamera = false;
 const FeatureMask kDimmingFeatures = kFeatureThinWalls;
+const bool kScatters = true;
 
 #include "access/path_loop.glsl"
 
@@ -44,7 +45,7 @@ bool takePath(uint slot, out Path path, inout Work work)
 
 VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps)
 {
-    return traceThroughAlpha(path.id, path.state.bounce, alphaRay, steps);
+    return traceThroughAlpha(path.id, rayNumber(path.state), alphaRay, steps);
 }
 
 void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)

@@ -10,7 +10,9 @@ const uint kMediaMask = 0xfffffffu;
 const uint kHasWavelength = 0x80000000u;  // beside them: the path has met dispersion
 // The camera path's first scattering was not specular: light tracing finds what it meets after specular ones (kFeatureCaustics).
 const uint kIsDiffuseFirst = 0x40000000u;
-const uint kIsCatcherFirst = 0x20000000u;  // the camera's ray has met a shadow catcher
+// The camera path has scattered in a medium, where light paths do not.
+const uint kHasScattered = 0x20000000u;
+const uint kIsCatcherFirst = 0x10000000u;  // the camera's ray has met a shadow catcher
 
 uint innermost(uint media)
 {

@@ -18,6 +18,9 @@ const uint kDimensionsPerBounce = 4u;
 // Whether a surface that is transparent in places is met, apart from all these: with the bounce in the lower bits.
 const uint kDimensionAlpha = 0x40000000u;
 const uint kDimensionWavelength = 0x20000000u;
+// Of rays within media that scatter, with the bounce in the lower bits.
+const uint kDimensionFreePath = 0x08000000u;
+const uint kDimensionDeflection = 0x04000000u;
 
 // Of light paths: which light and target, where on the light, the direction; then kDimensionsPerBounce for each surface.
 const uint kDimensionEmitter = 0u;

@@ -32,7 +32,7 @@ GLIM_SHARED_BEGIN
     FEATURE(Iridescence, 20, "iridescence") \
     FEATURE(Transmission, 21, "transmission") /* by the GGX lobe, of solids and thin walls */ \
     FEATURE(DiffuseTransmission, 22, "diffuse transmission") \
-    FEATURE(Media, 23, "volumes") /* absorption, or solids within each other */ \
+    FEATURE(Media, 23, "volumes") /* attenuation, or solids within each other */ \
     FEATURE(Dispersion, 24, "dispersion") \
     FEATURE(ThinWalls, 25, "thin walls") /* smooth ones, which light passes straight; with Alpha */ \
     FEATURE(Unlit, 26, "unlit materials") /* with Alpha */ \
@@ -46,7 +46,8 @@ GLIM_SHARED_BEGIN
     FEATURE(LargeTriangles, 34, "large triangles") /* beside small or close things */ \
     FEATURE(PointColors, 35, "coloured points") /* spheres and lines with colours of their own */ \
     FEATURE(Lines, 36, "lines") /* with Spheres */ \
-    FEATURE(Catcher, 37, "shadow catchers")
+    FEATURE(Scattering, 37, "scattering volumes") /* with Media */ \
+    FEATURE(Catcher, 38, "shadow catchers")
 // clang-format on
 
 #ifdef __cplusplus

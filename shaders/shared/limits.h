@@ -23,6 +23,10 @@ GLIM_CONST uint kScanPrimitiveRefs = 8192u;
 // dispatch after a cheap sky takes .12 s on two cores; with 4096 steps it would take .35 s. 256 steps take up to a sixth longer in all.
 GLIM_CONST uint kStepsPerThread = 512u;
 
+// How often a path scatters in volumes between two surfaces, at most. In a white half-space it would scatter more than n times with a
+// probability of 1 / sqrt(pi n), here .0044.
+GLIM_CONST uint kMaxScatterings = 16384u;
+
 // How a device rounds is told by so many inputs of so many operations (probe_arithmetic).
 GLIM_CONST uint kProbedInputs = 4096u;
 GLIM_CONST uint kProbedOperations = 5u;

@@ -16,15 +16,17 @@ struct PathRay {
 };
 
 struct PathHit {
-    uint primitiveRef;  // kNoPrimitiveRef: a miss
+    uint primitiveRef;  // kNoPrimitiveRef: a miss; kScatteredRef: in a volume, before it meets a surface
     float t;
     vec2 barycentric;  // weights of v1 and v2; a sphere's are unused
 };
 
+GLIM_CONST uint kScatteredRef = 0xfffffffeu;
+
 struct PathState {
     vec3 throughput;
     float pdf;       // of the ray's direction, per steradian; 0 for camera rays and delta lobes, which light sampling cannot replace
-    float cosine;    // of the ray's direction against the shading normal it left, >= 0
+    float cosine;    // of the ray's direction against the shading normal it left, >= 0; or minus the scatterings in a volume since then
     float etaScale;  // product of squared relative indices: throughput * etaScale is without refraction's scaling of radiance
     uint bounce;     // surfaces met
     uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl), or kNoReceiverNormal
@@ -117,6 +119,7 @@ struct RayCounts {
 };
 
 GLIM_CONST uint kMaxLocated = 16u;
+GLIM_CONST float kCutUnit = 1.52587890625e-5f;  // of Status::cutThroughput: 2^-16
 
 struct Located {
     uint pixel;  // index in the picture
@@ -129,6 +132,8 @@ struct Status {
     uint transparencyCaps;         // rays that passed more transparent surfaces than they may: the next one counted as opaque
     uint mediaCaps;                // rays that entered more media than a path keeps: the outermost was forgotten
     uint splatOverflows;           // splats beyond what a pixel can hold: the picture is wrong
+    uint scatteringCaps;           // paths that scattered in volumes more often than they may between two surfaces: they ended there
+    uvec2 cutThroughput;           // of those, 64 bits in two words, in units of kCutUnit
     uint nonFinite;                // samples that were not finite, and are in no average
     Located located[kMaxLocated];  // the first of them to be counted
 };
@@ -201,7 +206,7 @@ struct RenderParameters {
     uint instanceCount;
     uint firstInstanceRef;                   // references from here on are those of instances (scene_types.h)
     uint firstUv, firstTangent, firstColor;  // sections of the vertices (scene_types.h)
-    uint firstMedium;                        // texel of the first MediumData
+    uint firstMedium, firstScattering;       // texels of the first MediumData and ScatteringData
     uint hidesEnvironment;                   // 1: from the camera
     uint darkensObjects;                     // 1: what a catcher reflects of them is black
     uvec2 environmentSize;                   // texels of the map

@@ -72,6 +72,7 @@ GLIM_CONST uint kMaterialTexels = 3u;
 GLIM_CONST uint kPrincipledTexels = 4u;
 GLIM_CONST uint kLayersTexels = 6u;
 GLIM_CONST uint kMediumTexels = 2u;
+GLIM_CONST uint kScatteringTexels = 1u;
 GLIM_CONST uint kTextureTexels = 3u;
 GLIM_CONST uint kLightTexels = 5u;
 GLIM_CONST uint kLightNodeTexels = 3u;
@@ -147,10 +148,15 @@ struct LayersData {
 
 // What is inside a solid that transmits. Medium 1 is at RenderParameters::firstMedium.
 struct MediumData {
-    vec3 absorption;  // 1/m
+    vec3 extinction;  // absorption and scattering, 1/m
     float ior;        // at 587.6 nm
     float spread;     // of the index over wavelengths (lib/dispersion.glsl)
     vec3 unused;
+};
+// How light is scattered there (kFeatureScattering). That of medium 1 is at RenderParameters::firstScattering.
+struct ScatteringData {
+    vec3 albedo;       // the share of extinction that scatters
+    float anisotropy;  // mean cosine of a deflection
 };
 GLIM_CONST uint kMaxMedia = 127u;
 GLIM_CONST uint kMediumBits = 7u;      // of its number

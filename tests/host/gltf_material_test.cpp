@@ -141,6 +141,72 @@ TEST(GltfMaterial, AttenuationIsAbsorptionPerMetre)
     EXPECT_EQ(ofMaterials(map(material).warnings), Messages{});
 }
 
+// Half of the light is left after 2 m, of which the extension says how much is scattered.
+json scatteringGlass(const std::string& extension, const json& properties)
+{
+    json material = glass();
+    material["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.5, 0.5, 0.5};
+    material["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 2;
+    material["extensions"][extension] = properties;
+    return material;
+}
+
+// The albedo of one scattering by hand, of the colours .5, 1 and 0: s = .2971383, 0, 1.
+TEST(GltfMaterial, TheColourOfAVolumeDividesItsAttenuation)
+{
+    const float extinction = 0.5F * std::log(2.0F);
+    const auto expectDivided = [&](const char* extension, const json& properties, float halfGrey, float anisotropy) {
+        const Mapped mapped = map(scatteringGlass(extension, properties));
+        const Material& m = mapped.material;
+        EXPECT_EQ(ofMaterials(mapped.warnings), Messages{}) << extension;
+        EXPECT_NEAR(m.scattering.r, extinction * halfGrey, 2e-6F) << extension;
+        EXPECT_NEAR(m.absorption.r, extinction * (1.0F - halfGrey), 2e-6F) << extension;
+        EXPECT_EQ(m.absorption.g, 0.0F) << extension;
+        EXPECT_FLOAT_EQ(m.scattering.g, extinction) << extension;
+        EXPECT_EQ(m.scattering.b, 0.0F) << extension;
+        EXPECT_EQ(m.scatterAnisotropy, anisotropy) << extension;
+    };
+    const json color = {0.5, 1, 0};
+    constexpr float kSquare = 0.2971383F * 0.2971383F;
+    expectDivided("KHR_materials_volume_scatter", {{"multiscatterColor", color}, {"scatterAnisotropy", 0.5}}, 1.0F - kSquare, 0.5F);
+    expectDivided("KHR_materials_volume_scatter", {{"multiscatterColorFactor", color}}, 1.0F - kSquare, 0.0F);
+    expectDivided("KHR_materials_sss", {{"subsurfaceColor", color}}, 1.0F - kSquare, 0.0F);
+    expectDivided("KHR_materials_scatter", {{"scatterStrengthFactor", 1}, {"multiscatterColorFactor", color}, {"scatterAnisotropy", 0.5}},
+                  (1.0F - kSquare) / (1.0F - 0.5F * kSquare), 0.5F);
+    expectDivided("KHR_materials_scatter", {{"scatterFactor", 1}, {"multiscatterColorFactor", color}}, 1.0F - kSquare, 0.0F);
+}
+
+TEST(GltfMaterial, TheStrengthOfScatteringScalesItsColour)
+{
+    const auto scatteringOf = [](const json& properties) {
+        return map(scatteringGlass("KHR_materials_scatter", properties)).material.scattering;
+    };
+    EXPECT_EQ(scatteringOf(json::object()), glm::vec3(0.0F)) << "the default strength is 0";
+    EXPECT_EQ(scatteringOf({{"scatterStrengthFactor", 0.5}}),
+              scatteringOf({{"scatterStrengthFactor", 1}, {"multiscatterColorFactor", {0.5, 0.5, 0.5}}}));
+    const Mapped forwards = map(scatteringGlass("KHR_materials_scatter", {{"scatterStrengthFactor", 1}, {"scatterAnisotropy", 1}}));
+    EXPECT_EQ(forwards.material.scatterAnisotropy, 0.999F) << "1 would not scatter at all";
+}
+
+TEST(GltfMaterial, ACoefficientOfScatteringComesBesideTheAttenuation)
+{
+    for (const char* draft : {"KHR_materials_subsurface", "KHR_materials_sss"}) {
+        const Mapped mapped = map(scatteringGlass(draft, {{"scatterColor", {0.25, 1, 0.5}}, {"scatterDistance", 4}}));
+        EXPECT_EQ(ofMaterials(mapped.warnings), Messages{});
+        EXPECT_FLOAT_EQ(mapped.material.absorption.r, 0.5F * std::log(2.0F));
+        EXPECT_FLOAT_EQ(mapped.material.scattering.r, 0.25F * std::log(4.0F));
+        EXPECT_EQ(mapped.material.scattering.g, 0.0F);
+        EXPECT_FLOAT_EQ(mapped.material.scattering.b, 0.25F * std::log(2.0F));
+    }
+}
+
+TEST(GltfMaterial, TexturesWithinVolumesAreSaidToBeIgnored)
+{
+    const Mapped mapped = map(scatteringGlass("KHR_materials_scatter", {{"multiscatterColorTexture", {{"index", 0}}}}));
+    expectMessage(findWarning(mapped.warnings, MessageId::VolumeTextureIgnored), MessageId::VolumeTextureIgnored,
+                  {.place = "materials[0]"});
+}
+
 TEST(GltfMaterial, SmoothSolidGlassAloneIsTheSimpleLobe)
 {
     EXPECT_EQ(chooseMaterialType(map(glass()).material), kDielectric);

@@ -379,7 +379,7 @@ TEST(GltfTextures, RequiredExtensionsOfMaterialsAreSaidToBeIgnored)
                   {.place = "materials[0]", .value = "KHR_materials_to_come"});
 }
 
-TEST(GltfTextures, ScatteringWithinSolidsIsSaidToBeIgnored)
+TEST(GltfTextures, ScatteringWithoutSolidsIsSaidToBeIgnored)
 {
     GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", redPng())}});
     builder.document["extensionsRequired"] = {"KHR_materials_volume_scatter"};

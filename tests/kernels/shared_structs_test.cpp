@@ -11,15 +11,16 @@ namespace {
 // Words, all of them named in shared_fields.h, without padding.
 static_assert(sizeof(PathRay) == 32 && sizeof(PathHit) == 16 && sizeof(PathState) == 32 && sizeof(PathRadiance) == 16);
 static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(Round) == 32);
-static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 24 + 8 * kMaxLocated);
+static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 36 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Splat) == 32 && sizeof(Pass) == 32 && sizeof(PixelMoments) == 68);
 static_assert(sizeof(PathNote) == 172 && sizeof(BrightestSample) == 8);
 static_assert(sizeof(CatcherMoments) == 44 && sizeof(CatcherSums) == 72);
 static_assert(sizeof(MaterialData) == 48 && sizeof(LightNode) == 48 && sizeof(FlatLight) == 80 && sizeof(InstanceData) == 80);
-static_assert(sizeof(PrincipledData) == 64 && sizeof(LayersData) == 96 && sizeof(MediumData) == 32 && sizeof(TextureData) == 48);
+static_assert(sizeof(PrincipledData) == 64 && sizeof(LayersData) == 96 && sizeof(MediumData) == 32 && sizeof(ScatteringData) == 16 &&
+              sizeof(TextureData) == 48);
 static_assert(sizeof(FlatCamera) == 140 && sizeof(DisplayPass) == 40 && sizeof(ViewPass) == 56);
 static_assert(sizeof(EverySharedStruct) == 4 * kSharedWords);
-static_assert(sizeof(CoursePass) == 56 && sizeof(RenderParameters) == 276 && sizeof(CourseParameters) == 16);
+static_assert(sizeof(CoursePass) == 56 && sizeof(RenderParameters) == 280 && sizeof(CourseParameters) == 16);
 static_assert(sizeof(CoursePass) <= 64 && sizeof(DisplayPass) <= 64 && sizeof(ViewPass) <= 64,
               "push constants hold what changes from dispatch to dispatch");
 

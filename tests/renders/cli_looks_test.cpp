@@ -113,12 +113,14 @@ TEST_F(LooksTest, InspectSaysWhatBecomesOfExtensions)
 {
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangleMesh()}});
-    builder.document["extensionsUsed"] = {"KHR_xmp_json_ld", "KHR_materials_scatter", "KHR_materials_ior", "VENDOR_toon"};
+    builder.document["extensionsUsed"] = {"KHR_xmp_json_ld", "KHR_materials_scatter", "KHR_materials_to_come", "KHR_materials_ior",
+                                          "VENDOR_toon"};
     builder.document["extensionsRequired"] = {"KHR_materials_ior", "KHR_interactivity"};
     writeText(folder_ / "scene.gltf", builder.toGltf());
     EXPECT_EQ(json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("extensions"), json({{"KHR_interactivity", "ignored"},
                                                                                                 {"KHR_materials_ior", "drawn"},
-                                                                                                {"KHR_materials_scatter", "missing"},
+                                                                                                {"KHR_materials_scatter", "drawn"},
+                                                                                                {"KHR_materials_to_come", "missing"},
                                                                                                 {"KHR_xmp_json_ld", "ignored"},
                                                                                                 {"VENDOR_toon", "missing"}}));
     const std::string text = run({"inspect", "scene.gltf"}).out;

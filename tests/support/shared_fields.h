@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 464u;
+GLIM_CONST uint kSharedWords = 472u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -40,6 +40,7 @@ struct EverySharedStruct {
     PrincipledData principled;
     LayersData layers;
     MediumData medium;
+    ScatteringData scattering;
     TextureData textureTexel;
     FlatLight light;
     LightNode lightNode;
@@ -71,7 +72,7 @@ F(note.bsdfPdf) F(note.misWeightOfLight) U(note.lobe) U(note.lobeFlags) F3(note.
 U(round.paths.count) U3(round.paths.groups) U(round.shadowRays.count) U3(round.shadowRays.groups)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
-U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.mediaCaps) U(status.splatOverflows) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
+U(status.loopCaps) U(status.overflows) U(status.transparencyCaps) U(status.mediaCaps) U(status.splatOverflows) U(status.scatteringCaps) U2(status.cutThroughput) U(status.nonFinite) U(status.located[0].pixel) U(status.located[0].sampleIndex)
 U(status.located[1].pixel) U(status.located[1].sampleIndex) U(status.located[2].pixel) U(status.located[2].sampleIndex)
 U(status.located[3].pixel) U(status.located[3].sampleIndex) U(status.located[4].pixel) U(status.located[4].sampleIndex)
 U(status.located[5].pixel) U(status.located[5].sampleIndex) U(status.located[6].pixel) U(status.located[6].sampleIndex)
@@ -95,7 +96,7 @@ F2(parameters.camera.projection.tangential) F(parameters.camera.projection.end)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRef) U(parameters.firstUv) U(parameters.firstTangent)
-U(parameters.firstColor) U(parameters.firstMedium) U(parameters.hidesEnvironment) U(parameters.darkensObjects) U2(parameters.environmentSize) U2(parameters.environmentCells)
+U(parameters.firstColor) U(parameters.firstMedium) U(parameters.firstScattering) U(parameters.hidesEnvironment) U(parameters.darkensObjects) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentRotation) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
 F(parameters.splatScale)
 U(course_.refCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
@@ -117,7 +118,8 @@ F3(layers.sheenColor) F(layers.sheenRoughness)
 F(layers.anisotropy) F(layers.anisotropyCosine) F(layers.anisotropySine) U(layers.unusedOfAnisotropy)
 F(layers.iridescence) F(layers.iridescenceIor) F(layers.iridescenceThicknessMinimum) F(layers.iridescenceThicknessMaximum)
 F3(layers.diffuseTransmissionColor) F(layers.diffuseTransmission) F(layers.transmission) U(layers.medium) U2(layers.unused)
-F3(medium.absorption) F(medium.ior) F(medium.spread) F3(medium.unused)
+F3(medium.extinction) F(medium.ior) F(medium.spread) F3(medium.unused)
+F3(scattering.albedo) F(scattering.anisotropy)
 U(textureTexel.firstTexel) U(textureTexel.size) U(textureTexel.flags) U(textureTexel.unused) F3(textureTexel.rowU) U(textureTexel.unusedU) F3(textureTexel.rowV)
 U(textureTexel.unusedV)
 U(light.kind) U(light.primitiveRef) U(light.primitive) U(light.otherPrimitive) F3(light.intensity) F(light.probability) F3(light.position)

@@ -1,0 +1,122 @@
+// Paths in media that scatter: a random walk from surface to surface. A scattering is no surface: no light is sampled there, since the
+// boundary is in its way, and the path's bounce stays. What leaves the medium finds lights as from any surface.
+#ifndef GLIM_ACCESS_SCATTERING
+#define GLIM_ACCESS_SCATTERING
+
+#include "lib/media.glsl"
+#include "lib/roulette.glsl"
+#include "lib/scattering.glsl"
+#include "parameters.glsl"
+#include "pass.glsl"
+#include "scene.glsl"
+#include "shared/limits.h"
+#include "status.glsl"
+
+bool isScattered(PathHit hit)
+{
+    return hasFeature(kFeatureScattering) && hit.primitiveRef == kScatteredRef;
+}
+
+bool scatters(uint media)
+{
+    uint medium = innermost(media);
+    return hasFeature(kFeatureScattering) && medium != 0u && fetchScattering(render.firstScattering, medium).albedo != vec3(0.0);
+}
+
+// Since the last surface.
+uint countScatterings(PathState state)
+{
+    return uint(max(0.0, -state.cosine));
+}
+
+// The bounce of a path of the active queue. Without scattering all have met as many surfaces.
+uint bounceOf(PathState state)
+{
+    return hasFeature(kFeatureScattering) ? state.bounce : pass.bounce;
+}
+
+// The path's bounce, in a walk mixed with its steps: for numbers that must differ from ray to ray. Below 2^29.
+uint rayNumber(PathState state)
+{
+    return hasFeature(kFeatureScattering) ? (state.bounce + countScatterings(state) * 0x9e3779b9u) & 0x1fffffffu : state.bounce;
+}
+
+uvec4 scatteringBits(SampleId id, uint dimension, PathState state)
+{
+    return hash4(uvec4(id.pixel, id.index, dimension | state.bounce, id.seed ^ (countScatterings(state) + 1u) * 0x9e3779b9u));
+}
+
+// How far the ray goes unless it meets a surface. Infinite outside of media that scatter.
+float sampleFreePath(SampleId id, PathRay ray, PathState state)
+{
+    if (!scatters(ray.media)) {
+        return kInfinity;
+    }
+    uvec4 bits = scatteringBits(id, kDimensionFreePath, state);
+    vec3 extinction = fetchMedium(render.firstMedium, innermost(ray.media)).extinction;
+    return sampleFreePath(extinction[chooseChannel(state.throughput, unitFloat(bits.y))], unitFloat(bits.x));
+}
+
+// A scattering is nowhere closer to the surface ahead than this, so that rounding cannot put it on the other side.
+float scatteringMargin(PathRay ray, float t)
+{
+    vec3 a = abs(ray.origin);
+    return 4.7683716e-7 * (max(a.x, max(a.y, a.z)) + t);
+}
+
+// How far surfaces are looked for.
+float reachOf(PathRay ray, float freePath)
+{
+    return freePath + scatteringMargin(ray, freePath);
+}
+
+// What the ray meets: the surface or, before that, a scattering.
+PathHit meetFirst(PathRay ray, PathHit surface, float freePath)
+{
+    bool reaches = surface.primitiveRef != kNoPrimitiveRef && surface.t <= freePath;
+    bool misses = surface.primitiveRef == kNoPrimitiveRef && isinf(freePath);
+    if (reaches || misses) {
+        return surface;
+    }
+    float ahead = surface.primitiveRef == kNoPrimitiveRef ? freePath : max(0.0, surface.t - scatteringMargin(ray, freePath));
+    return PathHit(kScatteredRef, min(freePath, ahead), vec2(0.0));
+}
+
+// The throughput at what the ray has met, if it is in a medium that scatters.
+vec3 throughputAt(PathRay ray, PathHit hit, vec3 throughput)
+{
+    if (!scatters(ray.media)) {
+        return throughput;
+    }
+    uint medium = innermost(ray.media);
+    vec3 extinction = fetchMedium(render.firstMedium, medium).extinction;
+    if (isScattered(hit)) {
+        return scatteredThroughput(throughput, extinction, fetchScattering(render.firstScattering, medium).albedo, hit.t);
+    }
+    return reachedThroughput(throughput, extinction, hit.primitiveRef == kNoPrimitiveRef ? kInfinity : hit.t);
+}
+
+void endCutPath(PathState state)
+{
+    float left = sumOfChannels(state.throughput) * state.etaScale * (1.0 / 3.0);
+    reportScatteringCap(uint(min(left, 1e4) * (1.0 / kCutUnit)));
+}
+
+// Scatters the path after t metres. False if it ends: ray and state are then of no use. Roulette compares with the light that entered, so
+// that it ends no path early of which little is absorbed.
+bool scatterPath(SampleId id, float t, inout PathRay ray, inout PathState state)
+{
+    float g = fetchScattering(render.firstScattering, innermost(ray.media)).anisotropy;
+    uvec4 bits = scatteringBits(id, kDimensionDeflection, state);
+    uint count = countScatterings(state) + 1u;
+    float continuation = continuationProbability(state.throughput, state.etaScale, kRouletteBounce);
+    bool goesOn = unitFloat(bits.z) < continuation;
+    ray = PathRay(ray.origin + ray.direction * t, kNoPrimitive, deflect(ray.direction, g, unitFloat(bits.xy)), ray.media | kHasScattered);
+    state = PathState(state.throughput / continuation, 0.0, -float(count), state.etaScale, state.bounce, kNoReceiverNormal);
+    if (goesOn && count == kMaxScatterings) {
+        endCutPath(state);
+    }
+    return goesOn && count < kMaxScatterings;
+}
+
+#endif

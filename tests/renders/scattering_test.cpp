@@ -1,0 +1,184 @@
+// Volumes that scatter: closed objects in a furnace, slabs against adding and doubling (tests/oracle/slab.py), and what is cut or not
+// reached.
+#include "host/flatten/flatten_scene.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/oracle_cases.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+#include "tests/support/test_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace glim {
+namespace {
+
+using glm::vec3;
+
+// Glass that holds a medium. Of index 1 it has no boundary.
+Material makeVolume(const vec3& extinction, const vec3& albedo, float anisotropy, float ior)
+{
+    Material m;
+    m.metallic = m.roughness = 0.0F;
+    m.transmission = 1.0F;
+    m.solid = true;
+    m.ior = ior;
+    m.scattering = extinction * albedo;
+    m.absorption = extinction - m.scattering;
+    m.scatterAnisotropy = anisotropy;
+    return m;
+}
+
+Triangles box(const vec3& low, const vec3& high)
+{
+    const auto corner = [&](int i) {
+        return vec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z);
+    };
+    Triangles mesh;
+    for (const auto& f : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+        mesh.push_back({{corner(f[0]), corner(f[1]), corner(f[2])}});
+        mesh.push_back({{corner(f[0]), corner(f[2]), corner(f[3])}});
+    }
+    return mesh;
+}
+
+// A ring of radius .7 and thickness .3.
+Triangles torus()
+{
+    constexpr int kAround = 24, kAcross = 12;
+    const auto point = [](int i, int j) {
+        const float a = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i % kAround) / kAround;
+        const float b = 2.0F * std::numbers::pi_v<float> * static_cast<float>(j % kAcross) / kAcross;
+        const float r = 0.7F + 0.3F * std::cos(b);
+        return vec3(r * std::cos(a), r * std::sin(a), 0.3F * std::sin(b));
+    };
+    Triangles mesh;
+    for (int i = 0; i < kAround; ++i) {
+        for (int j = 0; j < kAcross; ++j) {
+            mesh.push_back({{point(i, j), point(i + 1, j), point(i + 1, j + 1)}});
+            mesh.push_back({{point(i, j), point(i + 1, j + 1), point(i, j + 1)}});
+        }
+    }
+    return mesh;
+}
+
+// One of four shapes of one material in a white sky, which fills the picture.
+Scene furnaceOf(const std::string& shape, const Material& material)
+{
+    SceneBuilder builder;
+    builder.add(material);
+    builder.environment(vec3(1.0F)).perspective({1, 2, 4}, {0, 0, 0}, 0.35F);
+    if (shape == "ball") {
+        builder.sphere({0, 0, 0}, 1.0F, 0);
+    }
+    Scene scene = builder.scene();
+    const Triangles round = icosphere(2);
+    if (shape == "mesh") {
+        addMesh(scene, round, 0, listVertices(round));
+    } else if (shape == "cube") {
+        addMesh(scene, box(vec3(-0.7F), vec3(0.7F)), 0);
+    } else if (shape == "torus") {
+        addMesh(scene, torus(), 0);
+    }
+    return scene;
+}
+
+struct Volume {
+    vec3 extinction;
+    float anisotropy, ior;
+};
+
+class ScatteringFurnaceTest : public testing::TestWithParam<const char*> {};
+
+// White media send back all the light, whatever their shape, boundary, density and anisotropy. The last medium differs from channel to
+// channel.
+TEST_P(ScatteringFurnaceTest, LosesNoLight)
+{
+    const std::string shape = GetParam();
+    const vec3 grey(6.0F), colored(0.5F, 3.0F, 20.0F);
+    for (const auto& [extinction, anisotropy, ior] :
+         {Volume{grey, 0.0F, 1.4F}, {colored, -0.5F, 1.4F}, {grey, 0.8F, 1.0F}, {colored, 0.8F, 1.0F}}) {
+        const Scene scene = furnaceOf(shape, makeVolume(extinction, vec3(1.0F), anisotropy, ior));
+        expectMean(shape + " of index " + std::to_string(ior) + " and anisotropy " + std::to_string(anisotropy),
+                   renderScene(scene, squareSettings(16, samplesFor(64))), glm::dvec3(1.0));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, ScatteringFurnaceTest, testing::Values("ball", "cube", "torus"));
+
+// Smooth normals, here up to 10 degrees off their faces, refract some light to the wrong side of its face, and after a walk it does not
+// pass back by the same face: .0028 of it is lost.
+TEST(ScatteringTest, SmoothNormalsLoseLittleLight)
+{
+    const Scene scene = furnaceOf("mesh", makeVolume(vec3(6.0F), vec3(1.0F), 0.0F, 1.4F));
+    const MeanEstimate estimate = meanOf(renderScene(scene, squareSettings(16, samplesFor(64))));
+    EXPECT_GE(estimate.mean.x, 0.995 - 5.0 * estimate.standardError.x);
+    EXPECT_LE(estimate.mean.x, 1.0 + 5.0 * estimate.standardError.x);
+}
+
+// What is cut is counted: a white medium so dense that some walks are too long. All light that leaves it is that of the sky.
+TEST(ScatteringTest, CutWalksAreCounted)
+{
+    const Scene scene = furnaceOf("ball", makeVolume(vec3(1e4F), vec3(1.0F), 0.0F, 1.0F));
+    const FlatScene flat = flattened(scene);
+    for (const Schedule schedule : {Schedule::Wavefront, Schedule::Persistent}) {
+        RenderSettings settings = squareSettings(8, 32);
+        settings.schedule = schedule;
+        Renderer renderer(testDevice(), flat, flattenCamera(scene.cameras[0], 1.0F), settings);
+        const Film film = renderer.render([](const RenderProgress&) { return true; });
+        const RenderStatistics& statistics = renderer.statistics();
+        EXPECT_GE(statistics.scatteringCaps, 1U);
+        EXPECT_NEAR(statistics.cutThroughput, statistics.scatteringCaps, 1e-3 * statistics.scatteringCaps);
+        EXPECT_NEAR(meanOf(film).mean.x + statistics.cutThroughput / (8.0 * 8.0 * 32.0), 1.0, 1e-4);
+    }
+}
+
+struct SlabCase {
+    float albedo, depth, anisotropy, cosine, reflected, transmitted;
+};
+
+// A slab of thickness 1 over a black floor that shines upwards, both a thousand times as wide. Red is the sky's light, green the floor's.
+Scene makeSlab(const Material& medium, float cosine)
+{
+    constexpr float kWide = 1000.0F;
+    SceneBuilder builder;
+    const float slant = std::sqrt(1.0F - cosine * cosine) / cosine;
+    const std::uint32_t material = builder.add(medium), floor = builder.lambert(vec3(0.0F), {0.0F, 1.0F, 1.0F});
+    builder.quad({{{-kWide, -kWide, -0.01F}, {kWide, -kWide, -0.01F}, {kWide, kWide, -0.01F}, {-kWide, kWide, -0.01F}}}, floor)
+        .environment({1.0F, 0.0F, 1.0F})
+        .orthographic({2.0F * slant, 0.0F, 3.0F}, {0.0F, 0.0F, 1.0F}, 0.01F);
+    Scene scene = builder.scene();
+    addMesh(scene, box({-kWide, -kWide, 0.0F}, {kWide, kWide, 1.0F}), material);
+    return scene;
+}
+
+TEST(ScatteringTest, SlabsReflectAndTransmitAsByAddingAndDoubling)
+{
+    for (const SlabCase& c : oracleCases<SlabCase>("slab_cases")) {
+        const Scene scene = makeSlab(makeVolume(vec3(c.depth), vec3(c.albedo), c.anisotropy, 1.0F), c.cosine);
+        const glm::dvec3 expected(c.reflected, c.transmitted, c.reflected + c.transmitted);
+        expectMean("slab of albedo " + std::to_string(c.albedo) + ", depth " + std::to_string(c.depth) + ", anisotropy " +
+                       std::to_string(c.anisotropy) + ", seen at a cosine of " + std::to_string(c.cosine),
+                   renderScene(scene, squareSettings(16, samplesFor(64))), expected);
+    }
+}
+
+// Each channel is a slab of its own, though one channel's distances serve all three.
+TEST(ScatteringTest, ChannelsAreSlabsOfTheirOwn)
+{
+    std::vector<SlabCase> cases = oracleCases<SlabCase>("slab_cases");
+    std::erase_if(cases, [](const SlabCase& c) { return c.anisotropy != 0.0F || c.cosine != 0.5F; });
+    ASSERT_EQ(cases.size(), 2U);
+    const vec3 depth(cases[0].depth, cases[1].depth, cases[0].depth), albedo(cases[0].albedo, cases[1].albedo, 0.0F);
+    Scene scene = makeSlab(makeVolume(depth, albedo, 0.0F, 1.0F), 0.5F);
+    scene.environment->radiance = vec3(1.0F);
+    scene.materials[1].emission = {0.0F, 0.0F, 1.0F};
+    const double unscattered = std::exp(-2.0 * static_cast<double>(cases[0].depth));
+    expectMean("slab of three media", renderScene(scene, squareSettings(16, samplesFor(256))),
+               glm::dvec3(cases[0].reflected, cases[1].reflected, unscattered));
+}
+
+}  // namespace
+}  // namespace glim
