@@ -255,6 +255,8 @@ private:
         data.diffuseTransmission = m.diffuseTransmission;
         data.diffuseTransmissionColor = m.diffuseTransmissionColor;
         data.medium = medium;
+        data.scattersThin = m.scattersThin ? 1 : 0;
+        data.backscattered = m.scattersThin ? 0.5F - 0.5F * m.scatterAnisotropy : 0.0F;
         features_ |= findLayers(m) & ~(chooseMaterialType(m) == kPrincipled ? 0U : kFeatureTransmission);
         return data;
     }
@@ -344,7 +346,7 @@ bool passesStraight(const Material& m)
 {
     const bool plain = (findLayers(m) & ~kFeatureDiffuseTransmission) == kFeatureTransmission && !m.textures[kSlotSpecular] &&
                        !m.textures[kSlotSpecularColor] && !m.glossy;
-    return !m.unlit && !m.solid && m.metallic < 1.0F && isSmooth(m) && plain;
+    return !m.unlit && !m.solid && !m.scattersThin && m.metallic < 1.0F && isSmooth(m) && plain;
 }
 
 bool scattersBehindSmoothBoundary(const Material& m)

@@ -126,8 +126,8 @@ void SceneCheck::checkMaterials() const
                     isRadiance(material.scattering),
                 MessageId::OutOfRange, "material", i, "a colour of a layer",
                 "outside 0 to 1, or an absorption or a scattering that is negative or not finite");
-        require(std::abs(material.scatterAnisotropy) < 1.0F, MessageId::OutOfRange, "material", i, "an anisotropy of scattering",
-                "outside -1 to 1");
+        require(std::abs(material.scatterAnisotropy) < (material.scattersThin ? 1.0F + std::numeric_limits<float>::epsilon() : 1.0F),
+                MessageId::OutOfRange, "material", i, "an anisotropy of scattering", "outside -1 to 1");
         require(isNumber(material.dispersion) && isNumber(material.iridescenceThicknessMinimum) &&
                     isNumber(material.iridescenceThicknessMaximum) && std::isfinite(material.anisotropyRotation) &&
                     std::isfinite(material.clearcoatNormalScale) && std::isfinite(material.iridescenceIor) &&

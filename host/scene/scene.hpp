@@ -63,6 +63,9 @@ struct Material {
     // KHR_materials_scatter and its forerunners, of the medium: 1/m, and the mean cosine of a deflection.
     glm::vec3 scattering{0.0F};
     float scatterAnisotropy = 0.0F;
+    // KHR_materials_scatter of a thin wall: diffuseTransmission is the share of what it transmits that scatters, most of it onwards if the
+    // anisotropy is positive.
+    bool scattersThin = false;
     float dispersion = 0.0F;  // of the medium: 20 / Abbe number
     float diffuseTransmission = 0.0F;
     glm::vec3 diffuseTransmissionColor{1.0F};

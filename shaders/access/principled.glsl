@@ -224,6 +224,7 @@ void setTransmission(inout Principled p, PrincipledInput m)
         p.f90 = m.data.metallic;
     }
     float share = p.isSmooth && !p.solid && m.passesStraight ? 0.0 : m.layers.transmission;
+    share *= m.layers.scattersThin != 0u ? 1.0 - m.layers.diffuseTransmission : 1.0;
     p.transmitted = m.baseColor * share * (1.0 - m.data.metallic);
 }
 
@@ -289,9 +290,12 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
         diffuse *= 1.0 - m.layers.transmission;
     }
     if (hasFeature(kFeatureDiffuseTransmission)) {
+        bool scatters = m.layers.scattersThin != 0u;
         float left = hasFeature(kFeatureTransmission) ? 1.0 - m.layers.transmission : 1.0;
-        through = m.layers.diffuseTransmissionColor * (below * left * m.layers.diffuseTransmission);
-        diffuse *= 1.0 - m.layers.diffuseTransmission;
+        left = scatters ? m.layers.transmission : left;
+        vec3 spread = m.layers.diffuseTransmissionColor * (below * left * m.layers.diffuseTransmission);
+        through = spread * (1.0 - m.layers.backscattered);
+        diffuse = diffuse * (scatters ? 1.0 : 1.0 - m.layers.diffuseTransmission) + spread * m.layers.backscattered;
     }
     p.coat = p.sheenMost = p.coatAlbedo = p.sheenAlbedo = 0.0;
     if (hasFeature(kFeatureClearcoat)) {

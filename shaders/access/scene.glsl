@@ -78,7 +78,8 @@ LayersData noLayers()
     l.diffuseTransmissionColor = vec3(0.0);
     l.diffuseTransmission = 0.0;
     l.transmission = 0.0;
-    l.medium = 0u;
+    l.medium = l.scattersThin = 0u;
+    l.backscattered = 0.0;
     return l;
 }
 
@@ -120,6 +121,8 @@ LayersData fetchLayers(uint layers)
         uvec4 f = texelFetch(sceneMaterials, at + 5);
         l.transmission = uintBitsToFloat(f.x);
         l.medium = f.y;
+        l.scattersThin = f.z;
+        l.backscattered = uintBitsToFloat(f.w);
     }
     return l;
 }

@@ -142,8 +142,9 @@ struct LayersData {
     vec3 diffuseTransmissionColor;
     float diffuseTransmission;
     float transmission;
-    uint medium;  // number of what it encloses, from 1 on; 0: a thin wall
-    uvec2 unused;
+    uint medium;          // number of what it encloses, from 1 on; 0: a thin wall
+    uint scattersThin;    // 1: diffuseTransmission is a share of what is transmitted, else of the diffuse base
+    float backscattered;  // then: the share of that light which goes back
 };
 
 // What is inside a solid that transmits. Medium 1 is at RenderParameters::firstMedium.

@@ -200,11 +200,20 @@ TEST(GltfMaterial, ACoefficientOfScatteringComesBesideTheAttenuation)
     }
 }
 
-TEST(GltfMaterial, TexturesWithinVolumesAreSaidToBeIgnored)
+TEST(GltfMaterial, ThinWallsScatterWhatTheyTransmit)
 {
-    const Mapped mapped = map(scatteringGlass("KHR_materials_scatter", {{"multiscatterColorTexture", {{"index", 0}}}}));
-    expectMessage(findWarning(mapped.warnings, MessageId::VolumeTextureIgnored), MessageId::VolumeTextureIgnored,
-                  {.place = "materials[0]"});
+    json material = scatteringGlass("KHR_materials_scatter",
+                                    {{"scatterStrengthFactor", 0.5}, {"scatterAnisotropy", -1}, {"multiscatterColorFactor", {0.5, 1, 0}}});
+    material["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0;
+    const Mapped mapped = map(material);
+    EXPECT_EQ(ofMaterials(mapped.warnings), Messages{});
+    EXPECT_TRUE(mapped.material.scattersThin);
+    EXPECT_EQ(mapped.material.diffuseTransmission, 0.5F);
+    EXPECT_EQ(mapped.material.diffuseTransmissionColor, glm::vec3(0.5F, 1.0F, 0.0F));
+    EXPECT_EQ(mapped.material.scatterAnisotropy, -1.0F);
+    material["extensions"].erase("KHR_materials_transmission");
+    expectMessage(findWarning(map(material).warnings, MessageId::ExtensionIgnored), MessageId::ExtensionIgnored,
+                  {.place = "materials[0]", .value = "KHR_materials_scatter"});
 }
 
 TEST(GltfMaterial, SmoothSolidGlassAloneIsTheSimpleLobe)

@@ -393,6 +393,21 @@ TEST(GltfTextures, ScatteringWithoutSolidsIsSaidToBeIgnored)
         {.place = "materials[0].extensions.KHR_materials_volume_scatter.scatterAnisotropy", .value = "2", .expected = "from -1 to 1"});
 }
 
+TEST(GltfTextures, TexturesWithinVolumesAreSaidToBeIgnored)
+{
+    GltfBuilder builder = texturedTriangle({{"uri", base64Uri("image/png", redPng())}});
+    json& extensions = builder.document["materials"][0]["extensions"];
+    extensions["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+    extensions["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+    extensions["KHR_materials_scatter"] = {{"multiscatterColorTexture", {{"index", 0}}}};
+    expectMessage(findWarning(load(builder).warnings, MessageId::VolumeTextureIgnored), MessageId::VolumeTextureIgnored,
+                  {.place = "materials[0]"});
+    extensions["KHR_materials_volume"]["thicknessFactor"] = 0;
+    const Material thin = load(builder).materials[0];
+    EXPECT_TRUE(thin.textures[kSlotDiffuseTransmissionColor]);
+    EXPECT_FALSE(thin.textures[kSlotDiffuseTransmission]);
+}
+
 TEST(GltfTextures, InvisibleNodesAndWhatHangsBelowAreLeftOut)
 {
     GltfBuilder builder;

@@ -90,6 +90,15 @@ struct Volume {
     float anisotropy, ior;
 };
 
+// The same with a boundary that transmits diffusely and reflects nothing of its own.
+Material makeMilky(const vec3& extinction, float ior)
+{
+    Material m = makeVolume(extinction, vec3(1.0F), 0.0F, ior);
+    m.transmission = m.specular = 0.0F;
+    m.diffuseTransmission = m.roughness = 1.0F;
+    return m;
+}
+
 class ScatteringFurnaceTest : public testing::TestWithParam<const char*> {};
 
 // White media send back all the light, whatever their shape, boundary, density and anisotropy. The last medium differs from channel to
@@ -104,6 +113,7 @@ TEST_P(ScatteringFurnaceTest, LosesNoLight)
         expectMean(shape + " of index " + std::to_string(ior) + " and anisotropy " + std::to_string(anisotropy),
                    renderScene(scene, squareSettings(16, samplesFor(64))), glm::dvec3(1.0));
     }
+    expectMean("milky " + shape, renderScene(furnaceOf(shape, makeMilky(grey, 1.4F)), squareSettings(16, samplesFor(64))), glm::dvec3(1.0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ScatteringFurnaceTest, testing::Values("ball", "cube", "torus"));
@@ -135,23 +145,75 @@ TEST(ScatteringTest, CutWalksAreCounted)
     }
 }
 
+// Light of a bulb gets in through a boundary that is rough or transmits diffusely: as much as of a small ball that rays can hit.
+TEST(ScatteringTest, PointLightsReachVolumesThroughOpenBoundaries)
+{
+    constexpr float kRadius = 0.05F, kIntensity = 4.0F, kRadiance = kIntensity / (std::numbers::pi_v<float> * kRadius * kRadius);
+    Material rough = makeVolume({6.0F, 3.0F, 1.0F}, {0.9F, 0.8F, 0.99F}, 0.3F, 1.4F), diffuse = rough;
+    rough.roughness = 0.8F;
+    diffuse.transmission = 0.0F;
+    diffuse.diffuseTransmission = diffuse.roughness = 1.0F;
+    for (const Material& material : {rough, diffuse}) {
+        SceneBuilder bulb, ball;
+        PunctualLight light;
+        light.position = {1.0F, 2.0F, 1.0F};
+        light.intensity = vec3(kIntensity);
+        bulb.sphere({0, 0, 0}, 1.0F, bulb.add(material)).light(light).perspective({0, 0, 5}, {0, 0, 0}, 0.3F);
+        ball.sphere({0, 0, 0}, 1.0F, ball.add(material));
+        ball.sphere(light.position, kRadius, ball.lambert(vec3(0.0F), vec3(kRadiance))).perspective({0, 0, 5}, {0, 0, 0}, 0.3F);
+        expectSameMean(material.transmission > 0.0F ? "rough boundary" : "diffuse boundary",
+                       renderScene(bulb.scene(), squareSettings(16, samplesFor(256))),
+                       renderSeeds(ball.scene(), squareSettings(16, samplesFor(256)), 2)[1]);
+    }
+}
+
 struct SlabCase {
     float albedo, depth, anisotropy, cosine, reflected, transmitted;
 };
 
-// A slab of thickness 1 over a black floor that shines upwards, both a thousand times as wide. Red is the sky's light, green the floor's.
-Scene makeSlab(const Material& medium, float cosine)
+constexpr float kWide = 1000.0F;
+
+// A mesh over a black floor that shines upwards. Red is the sky's light, green the floor's.
+Scene makeLayer(const Triangles& mesh, const Material& of, float cosine)
 {
-    constexpr float kWide = 1000.0F;
     SceneBuilder builder;
     const float slant = std::sqrt(1.0F - cosine * cosine) / cosine;
-    const std::uint32_t material = builder.add(medium), floor = builder.lambert(vec3(0.0F), {0.0F, 1.0F, 1.0F});
+    const std::uint32_t material = builder.add(of), floor = builder.lambert(vec3(0.0F), {0.0F, 1.0F, 1.0F});
     builder.quad({{{-kWide, -kWide, -0.01F}, {kWide, -kWide, -0.01F}, {kWide, kWide, -0.01F}, {-kWide, kWide, -0.01F}}}, floor)
         .environment({1.0F, 0.0F, 1.0F})
         .orthographic({2.0F * slant, 0.0F, 3.0F}, {0.0F, 0.0F, 1.0F}, 0.01F);
     Scene scene = builder.scene();
-    addMesh(scene, box({-kWide, -kWide, 0.0F}, {kWide, kWide, 1.0F}), material);
+    addMesh(scene, mesh, material);
     return scene;
+}
+
+// A slab of thickness 1, a thousand times as wide.
+Scene makeSlab(const Material& medium, float cosine)
+{
+    return makeLayer(box({-kWide, -kWide, 0.0F}, {kWide, kWide, 1.0F}), medium, cosine);
+}
+
+// A wall of colour c that scatters all it transmits sends c (1 + g) / 2 onwards and c (1 - g) / 2 back. Half of that strength leaves half
+// of the light to pass straight.
+TEST(ScatteringTest, ThinWallsDivideTheirLightByAnisotropy)
+{
+    for (const float strength : {1.0F, 0.5F}) {
+        for (const float anisotropy : {-1.0F, 0.0F, 0.6F}) {
+            Material wall;
+            wall.metallic = wall.specular = wall.roughness = 0.0F;
+            wall.transmission = 1.0F;
+            wall.scattersThin = true;
+            wall.diffuseTransmission = strength;
+            wall.diffuseTransmissionColor = vec3(0.8F);
+            wall.scatterAnisotropy = anisotropy;
+            const Scene scene = makeLayer({{{vec3(-9, -9, 1), vec3(9, -9, 1), vec3(0, 18, 1)}}}, wall, 0.5F);
+            const double share = static_cast<double>(strength), scattered = 0.8 * share;
+            const double back = 0.5 - 0.5 * static_cast<double>(anisotropy);
+            const glm::dvec3 expected(scattered * back, scattered * (1.0 - back) + 1.0 - share, scattered + 1.0 - share);
+            expectMean("thin wall of anisotropy " + std::to_string(anisotropy), renderScene(scene, squareSettings(16, samplesFor(256))),
+                       expected);
+        }
+    }
 }
 
 TEST(ScatteringTest, SlabsReflectAndTransmitAsByAddingAndDoubling)

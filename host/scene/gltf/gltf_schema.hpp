@@ -253,13 +253,17 @@ constexpr SchemaRule kSchemaRules[] = {
 constexpr std::string_view kGlossinessColor = "extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture";
 constexpr std::string_view kGlossinessSpecular = "extensions.KHR_materials_pbrSpecularGlossiness.specularGlossinessTexture";
 
+constexpr std::string_view kScatterStrengthTexture = "extensions.KHR_materials_scatter.scatterStrengthTexture";
+constexpr std::string_view kScatterDraftTexture = "extensions.KHR_materials_scatter.scatterTexture";
+constexpr std::string_view kScatterColorTexture = "extensions.KHR_materials_scatter.multiscatterColorTexture";
+
 // Where materials refer to textures. Each may have texture coordinates and KHR_texture_transform.
 // clang-format off
 constexpr std::string_view kTexturePaths[] = {
 #define SLOT(number, name, holds, feature, path, times) path,
     GLIM_TEXTURE_SLOTS(SLOT)
 #undef SLOT
-    kGlossinessColor, kGlossinessSpecular,
+    kGlossinessColor, kGlossinessSpecular, kScatterStrengthTexture, kScatterDraftTexture, kScatterColorTexture,
     "occlusionTexture", "extensions.KHR_materials_volume.thicknessTexture",
 };
 // clang-format on

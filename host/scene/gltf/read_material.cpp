@@ -103,6 +103,8 @@ private:
     }
     void readTransmission(Material& material);
     void readScattering(Material& material);
+    void readThinScattering(Material& material);
+    float readStrength() const;
     glm::vec3 readCoefficient(const char* extension, const char* color, const char* distance) const;
     std::optional<glm::dvec3> readAlbedo(double anisotropy) const;
     void readLayers(Material& material);
@@ -194,6 +196,7 @@ void MaterialReader::readTransmission(Material& material)
     material.thick = numberOr(source_, kVolume, "thicknessFactor", 0.0) > 0.0F;
     material.solid = transmits && material.thick;
     if (!material.solid) {
+        readThinScattering(material);
         return;
     }
     if (material.ior == 0.0F) {
@@ -217,12 +220,31 @@ glm::vec3 MaterialReader::readCoefficient(const char* extension, const char* col
     return glm::min((0.0 - glm::log(left)) / metres->GetNumberAsDouble(), 1e30);  // no -0
 }
 
+// Of KHR_materials_scatter; its schema has another name than its text.
+float MaterialReader::readStrength() const
+{
+    return numberOr(source_, kScatter, "scatterStrengthFactor", numberOr(source_, kScatter, "scatterFactor", 0.0));
+}
+
+void MaterialReader::readThinScattering(Material& material)
+{
+    if (source_.extensions.count(kScatter) == 0 || material.transmission == 0.0F) {
+        return;
+    }
+    material.scattersThin = true;
+    material.scatterAnisotropy = numberOr(source_, kScatter, "scatterAnisotropy", 0.0);
+    material.diffuseTransmission = readStrength();
+    material.diffuseTransmissionColor = colorOr(source_, kScatter, "multiscatterColorFactor", glm::vec3(1.0F));
+    const bool isDraft = findProperty(source_, kScatter, "scatterStrengthTexture") == nullptr;
+    material.textures[kSlotDiffuseTransmission] = readTexture(isDraft ? kScatterDraftTexture : kScatterStrengthTexture);
+    material.textures[kSlotDiffuseTransmissionColor] = readTexture(kScatterColorTexture);
+}
+
 // Of one scattering in the medium, if the material names a colour from which it follows.
 std::optional<glm::dvec3> MaterialReader::readAlbedo(double anisotropy) const
 {
     if (source_.extensions.count(kScatter) > 0) {
-        const float strength = numberOr(source_, kScatter, "scatterStrengthFactor", numberOr(source_, kScatter, "scatterFactor", 0.0));
-        return singleScatteringAlbedo(strength * colorOr(source_, kScatter, "multiscatterColorFactor", glm::vec3(1.0F)), anisotropy);
+        return singleScatteringAlbedo(readStrength() * colorOr(source_, kScatter, "multiscatterColorFactor", glm::vec3(1.0F)), anisotropy);
     }
     if (source_.extensions.count(kVolumeScatter) > 0) {
         const glm::vec3 color = colorOr(source_, kVolumeScatter, "multiscatterColorFactor", glm::vec3(0.0F));
@@ -320,7 +342,7 @@ void MaterialReader::warnOfExtensions(const Material& material)
 {
     for (const auto& [name, extension] : source_.extensions) {
         const bool scatters = name == kScatter || name == kVolumeScatter || name == kSubsurface || name == kSss;
-        const bool isEmpty = scatters && !material.solid;
+        const bool isEmpty = scatters && !material.solid && !(name == kScatter && material.scattersThin);
         if (isMissing(name) || isEmpty) {
             const char* const why = isEmpty ? " is ignored (no light enters a volume of the material)" : " is ignored";
             warnings_.add({MessageId::ExtensionIgnored, {part::value(shortened(name)), why}}, part::place(place_));
