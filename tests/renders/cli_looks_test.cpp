@@ -131,6 +131,32 @@ TEST_F(LooksTest, InspectSaysWhatBecomesOfExtensions)
     }
 }
 
+// A ball of wax whose boundary is smooth, and a bulb.
+TEST_F(LooksTest, InspectSaysHowVolumesScatterAndWhatLightMisses)
+{
+    writeBall();
+    json document = jsonIn("scene.gltf");
+    document["materials"][0]["name"] = "wax";
+    document["materials"][0]["extensions"]["KHR_materials_subsurface"] = {{"scatterColor", {0.5, 0.5, 1}}, {"scatterDistance", 0.1}};
+    writeText(folder_ / "scene.gltf", document.dump());
+    EXPECT_TRUE(contains(run({"inspect", "scene.gltf"}).out,
+                         "absorption (0.693, 0, 0) per metre, scattering (6.93, 6.93, 0) per metre, anisotropy 0\n"));
+    const json ball = json::parse(run({"inspect", "scene.gltf", "--json"}).out);
+    EXPECT_NEAR(ball.at("media")[0].at("scattering")[0], 10.0 * std::log(2.0), 1e-5);
+    EXPECT_EQ(ball.at("media")[0].at("anisotropy"), 0);
+    const auto warns = [&] {
+        writeText(folder_ / "scene.gltf", document.dump());
+        const json ids = json::parse(run({"inspect", "scene.gltf", "--json"}).out).at("warningIds");
+        return std::find(ids.begin(), ids.end(), "unreached-volume") != ids.end();
+    };
+    EXPECT_FALSE(warns());
+    document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}}});
+    document["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    EXPECT_TRUE(warns());
+    document["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0.05;
+    EXPECT_FALSE(warns());
+}
+
 TEST_F(LooksTest, InspectSaysWhatBecomesOfSingleSidedMaterials)
 {
     const auto expectNone = [this] {

@@ -58,7 +58,7 @@ void expectConnected(const FlatScene& flat, const ReplayedPath& path)
         const PathVertex& vertex = path.vertices[i];
         EXPECT_EQ(vertex.bounce, i);
         ASSERT_EQ(vertex.end == PathEnd::Continues, i + 1 < path.vertices.size());
-        if (vertex.end == PathEnd::Continues) {
+        if (vertex.end == PathEnd::Continues && flat.scattering.empty()) {  // else a walk may lie between the two
             const PathVertex& next = path.vertices[i + 1];
             EXPECT_EQ(next.before.throughput, vertex.after.throughput);
             EXPECT_EQ(next.before.pdf, vertex.after.pdf);
@@ -124,6 +124,23 @@ TEST_F(ReplayTest, HasTheBitsOfTheSampleInEveryScene)
         expectReplays(smallSettings(sample, sample + 1), 12);
     }
     EXPECT_GT(vertices_, 250U);
+}
+
+TEST_F(ReplayTest, HasThemOfWalksThroughVolumes)
+{
+    load("wax.gltf");
+    expectReplays(smallSettings(3, 4), 12);
+    Replay replay(testDevice(), flat_, camera_, smallSettings(0, 64));
+    float scatterings = 0.0F;
+    std::size_t within = 0;
+    for (std::uint32_t pixel = 0; pixel < kSide * kSide; pixel += 5) {
+        for (const PathVertex& vertex : replay.trace(pixel, 0).vertices) {
+            scatterings = std::max(scatterings, -vertex.before.cosine);
+            within += vertex.end == PathEnd::WithinVolume ? 1 : 0;
+        }
+    }
+    EXPECT_GT(scatterings, 10.0F);
+    EXPECT_GT(within, 0U);
 }
 
 TEST_F(ReplayTest, HasThemHoweverLightIsFound)

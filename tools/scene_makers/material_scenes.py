@@ -5,7 +5,7 @@ import math
 from .gltf_document import Document, look_at
 from .made_images import GREY, PALETTE, RGB, RGBA, hash01, normal_map, png, radiance_map, ramp, sample, smooth_step, softboxes, turbulence
 from .showcase import drape, leaf_picture, tumbler
-from .surfaces import ball, rectangle
+from .surfaces import ball, lathe, rectangle, rotation, torus
 
 GOLD, COPPER = (1.0, 0.766, 0.336), (0.955, 0.638, 0.538)
 
@@ -228,6 +228,31 @@ def liquid():
     return document
 
 
+def wax():
+    """A candle, a glass of milk and a ring of jade: each lets light in otherwise, and names its scattering by another extension."""
+    document = Document()
+    document.camera("front", (0.0, 1.35, 5.0), (0.0, 0.47, 0.0), 24.0, 1.0)
+    light_by_softboxes(document)
+    document.surface("floor", rectangle((-2.0, 0.0, 1.5), (4.0, 0.0, 0.0), (0.0, 0.0, -4.0)), checkered(document, "floor", 16))
+    candle = document.surface_material("candle", roughness=0.45, extensions=solid(1.45, (0.5, 0.4, 0.3), 0.02, scatter={
+        "scatterStrengthFactor": 1.0, "multiscatterColorFactor": [0.93, 0.8, 0.55], "scatterAnisotropy": 0.3}))
+    milk = document.surface_material("milk", roughness=0.0, extensions=solid(1.34, (0.4, 0.4, 0.4), 0.03, volume_scatter={
+        "multiscatterColor": [0.95, 0.93, 0.87], "scatterAnisotropy": 0.7}))
+    jade = document.surface_material("jade", roughness=0.2, extensions={
+        "diffuse_transmission": {"diffuseTransmissionFactor": 1.0},
+        "volume": {"thicknessFactor": 1.0, "attenuationDistance": 0.15, "attenuationColor": [0.35, 0.8, 0.45]},
+        "subsurface": {"scatterColor": [0.3, 0.3, 0.3], "scatterDistance": 0.05}})
+    glass = document.surface_material("glass", roughness=0.0, extensions=solid())
+    cup, drink = tumbler(0.3, 0.7)
+    document.small_surface("tumbler", cup.placed((0.02, 0.001, 0.35)), glass, uv=False)
+    document.small_surface("milk", drink.placed((0.02, 0.001, 0.35)), milk, uv=False)
+    outline = [(0.0, 0.0), (0.28, 0.0), (0.28, 0.0), (0.27, 0.5), (0.28, 0.95), (0.25, 1.0), (0.18, 0.96), (0.0, 0.93)]
+    document.small_surface("candle", lathe(outline).placed((-0.62, 0.001, -0.1)), candle, uv=False)
+    ring = torus(0.24, 0.09).placed(matrix=rotation((1.0, 0.0, 0.0), 80.0))
+    document.small_surface("ring", ring.placed((0.68, 0.34, 0.0)), jade, uv=False)
+    return document
+
+
 def car_paint():
     """Three balls: paint and coat, paint alone, and a coat like orange peel."""
     document = Document()
@@ -274,4 +299,4 @@ def cloth():
 
 
 MATERIAL_SCENES = {"materials": materials, "textures": textures, "normal_map": normal_map_scene, "alpha": alpha, "liquid": liquid,
-                   "car_paint": car_paint, "cloth": cloth}
+                   "wax": wax, "car_paint": car_paint, "cloth": cloth}
