@@ -44,6 +44,7 @@ set(onlyInCi
     MaterialTest.ClearGlassInAFurnaceIsInvisible
     MaterialTest.NestedGlassInAFurnaceIsInvisible
     MaterialTest.NoMaterialReflectsMoreThanItGets
+    ScatteringTest.SlabsReflectAndTransmitAsByAddingAndDoubling
     MaterialTest.RoughPanesKeepTheAlbedoOfSingleScattering
     HardMaterialTest.H45AlphaAtTheDeltaLimit
     HardMaterialTest.H48BlackAttenuation
