@@ -19,8 +19,7 @@
 #include <limits>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::accumulate_test {
 
 constexpr std::uint32_t kPixels = 100, kSamples = 8, kTileBegin = 1000, kFirstSample = 32;
 
@@ -218,5 +217,4 @@ TEST(AccumulateTest, KeepsTheFirstBrightestSample)
     EXPECT_EQ(accumulate(radiance).brightest[0].luminance, 0.0F);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::accumulate_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::albedo_table_test {
 
 struct Case {
     float cosine, alpha;
@@ -21,5 +20,4 @@ TEST(AlbedoTableTest, IsTheReferences)
     compareWithOracle("albedos, of GGX and sheen", test_kernels::albedo_table_test, oracleCases<Case>("albedo_cases"), albedos.bound());
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::albedo_table_test

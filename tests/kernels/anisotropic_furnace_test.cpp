@@ -11,8 +11,7 @@
 #include <array>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::anisotropic_furnace_test {
 
 struct Case {
     vec3 wo;
@@ -51,5 +50,4 @@ TEST(AnisotropicFurnaceTest, WhiteMetalsReflectAllLight)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::anisotropic_furnace_test

@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace glim {
-namespace {
+namespace glim::bsdf_lobes_test {
 
 struct Case {
     vec3 albedo;
@@ -95,5 +94,4 @@ TEST(BsdfLobesTest, GlassReflectsItsShare)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::bsdf_lobes_test

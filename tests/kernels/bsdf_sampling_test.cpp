@@ -14,8 +14,7 @@
 #include <cstring>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::bsdf_sampling_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::array<float, 5> kRoughnesses = {0.04F, 0.1F, 0.2F, 0.5F, 1.0F};
@@ -436,5 +435,4 @@ TEST(BsdfSamplingTest, H20CornersAreFinite)
     Sampled(cases).sample(kPointsCorners, 64, kAllFeatures);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::bsdf_sampling_test

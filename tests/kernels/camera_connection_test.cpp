@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::camera_connection_test {
 
 struct Case {
     FlatCamera camera;
@@ -134,5 +133,4 @@ TEST(CameraConnectionTest, FollowsTheProjection)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::camera_connection_test

@@ -10,8 +10,7 @@
 #include <iostream>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::camera_lens_test {
 
 using glm::dvec3;
 
@@ -150,5 +149,4 @@ TEST(CameraLensTest, H35PinholesIgnoreTheDisk)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::camera_lens_test

@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::camera_test {
 
 struct Case {
     FlatCamera camera;
@@ -108,5 +107,4 @@ TEST(CameraTest, H35ThinFieldsOfView)
     EXPECT_LE(worst, 0.07);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::camera_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::canary_test {
 
 std::vector<uvec2> countTo(std::uint32_t steps)
 {
@@ -31,5 +30,4 @@ TEST(CanaryTest, IsSilentWithinTheBudget)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::canary_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::catcher_test {
 
 constexpr uint kFronts = 1, kWithoutObjects = 4;  // bvh_traversal.glsl
 constexpr uint kSamples = 4;                      // of each pixel in a pass
@@ -62,5 +61,4 @@ TEST(CatcherTest, OtherScenesHaveOnePath)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::catcher_test

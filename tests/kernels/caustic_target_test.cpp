@@ -11,8 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::caustic_target_test {
 
 using glm::dvec3;
 
@@ -258,5 +257,4 @@ TEST(CausticTargetTest, DegenerateTargetsAreNotAimedAt)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::caustic_target_test

@@ -13,8 +13,7 @@
 
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::choose_pixels_test {
 
 constexpr std::uint32_t kWorkgroup = 64;
 constexpr std::uint32_t kUntouched = 0xabcdef01;
@@ -181,5 +180,4 @@ TEST(ChoosePixelsTest, LeavesOutWhatIsEmptyWithItsNeighbours)
     std::cout << "  " << outcome.count << " of " << luminances.size() << " pixels chosen\n";
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::choose_pixels_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::clamp_indirect_test {
 
 struct Case {
     vec3 contribution;
@@ -35,5 +34,4 @@ TEST(ClampIndirectTest, KeepsTheHueAndCountsTheRest)
     KernelTest(test_kernels::clamp_indirect_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::clamp_indirect_test

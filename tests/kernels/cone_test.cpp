@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::cone_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -97,5 +96,4 @@ TEST(ConeTest, H11IsUniform)
     expectUniform(1e-8F, 15);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::cone_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::contact_test {
 
 using glm::dvec3;
 using glm::vec3;
@@ -124,5 +123,4 @@ TEST(ContactTest, H10EmitterIsTheReceiver)
                      {{{1, 0, 0}, {1, 0, 0}, 0.0, kLookUp}, {{0, -0.6F, 0.8F}, {0, -0.6F, 0.8F}, 0.0, kLookUp}});
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::contact_test

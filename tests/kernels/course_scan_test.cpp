@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::course_scan_test {
 
 struct Case {
     PathRay ray;
@@ -99,5 +98,4 @@ TEST(ScanTiesTest, GoToTheLowestPrimitive)
     EXPECT_LT(spheres, rays.size() * 3 / 4);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::course_scan_test

@@ -12,8 +12,7 @@
 #include <numbers>
 #include <utility>
 
-namespace glim {
-namespace {
+namespace glim::direct_light_test {
 
 using glm::dot;
 using glm::dvec3;
@@ -234,5 +233,4 @@ TEST(DirectLightKernelTest, TheEnvironmentIsFoundAsItIsSampled)
     EXPECT_GT(found, cases.size() / 2);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::direct_light_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::dispersion_test {
 
 struct Index {
     float nm, ior, spread, expected;
@@ -43,5 +42,4 @@ TEST(DispersionTest, IndicesAndWavelengths)
     EXPECT_NEAR(squares.w / n, 600.0 * (1.0 - 1.0 / (128.0 * 128.0)), 0.01) << "nm^2";
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::dispersion_test

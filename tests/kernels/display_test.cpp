@@ -12,8 +12,7 @@
 #include <limits>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::display_test {
 
 struct Case {
     PixelMoments pixel;
@@ -67,5 +66,4 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
     expectIndicesOutside(test.results<uvec3>());
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::display_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::driver_precision_test {
 
 struct Case {
     float x, y, z, w;
@@ -83,5 +82,4 @@ TEST(DriverPrecisionTest, H41PrecisionIsWhatVulkanRequires)
     EXPECT_LE(worst.power, 1.0);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::driver_precision_test

@@ -14,8 +14,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace glim {
-namespace {
+namespace glim::environment_map_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -302,5 +301,4 @@ TEST(EnvironmentMapTest, ABlackMapIsNone)
     EXPECT_TRUE(map.texels.empty() && map.cells.empty());
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::environment_map_test

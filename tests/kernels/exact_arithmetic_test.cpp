@@ -16,8 +16,7 @@
 #include <limits>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::exact_arithmetic_test {
 
 constexpr float kLeast = std::numeric_limits<float>::min();
 
@@ -250,5 +249,4 @@ TEST(AdverseArithmeticTest, WordsThatNameNoneAreRefused)
 
 INSTANTIATE_TEST_SUITE_P(Arithmetics, ExactArithmeticTest, testing::Values("exact", "adverse:0", "adverse:1", "adverse:2", "adverse:3"));
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::exact_arithmetic_test

@@ -10,8 +10,7 @@
 
 #include <bit>
 
-namespace glim {
-namespace {
+namespace glim::features_test {
 
 struct Case {
     FeatureMask features;  // uvec2 on the device: the lower half first
@@ -113,5 +112,4 @@ TEST(FeaturesTest, EachChoiceOfTheCourseFollowsItsOwnId)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::features_test

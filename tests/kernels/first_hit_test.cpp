@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::first_hit_test {
 
 struct Case {
     vec3 point, ns, baseColor;
@@ -35,5 +34,4 @@ TEST(FirstHitTest, IsWhatTheCameraSaw)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::first_hit_test

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::float_marks_test {
 
 // SPIR-V specification, sections 3.6, 3.20, 3.49.
 constexpr std::uint32_t kOpExecutionMode = 16, kOpDecorate = 71, kNoContraction = 42, kSignedZeroInfNanPreserve = 4461,
@@ -77,5 +76,4 @@ INSTANTIATE_TEST_SUITE_P(Kernels, FloatMarksTest,
                                          named(kernels::trace_paths), named(kernels::trace_shadow), named(kernels::accumulate)),
                          test::nameOfParameter);
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::float_marks_test

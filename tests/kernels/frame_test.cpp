@@ -10,8 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::frame_test {
 
 struct Case {
     vec3 normal, vector, unit;
@@ -91,5 +90,4 @@ TEST(FrameTest, H17H39IsOrthonormalAndRightHanded)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::frame_test

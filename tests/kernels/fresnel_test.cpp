@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::fresnel_test {
 
 struct Case {
     float cosine, eta;
@@ -133,5 +132,4 @@ TEST(FresnelTest, H21AgreesWithTheSineAndTangentLaws)
                   "within the rounding of the angle", "no clamps: " + std::to_string(wrong) + " wrong or NaN");
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::fresnel_test

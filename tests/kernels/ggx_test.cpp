@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::ggx_test {
 
 struct GgxCase {
     vec3 wo, wi;
@@ -44,5 +43,4 @@ TEST(MultipleScatteringTest, IsTheReferences)
                       oracleCases<MultipleScatteringCase>("multiple_scattering_cases"));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::ggx_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::hash_test {
 
 struct Case {
     uvec4 counter;
@@ -102,5 +101,4 @@ TEST(HashTest, H32NeighboursAreUncorrelated)
                   "seeded by the pixel's number: " + figure(naiveCorrelation(n)));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::hash_test

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::infinity_test {
 
 TEST(InfinityTest, IsInfinite) { KernelTest(test_kernels::infinity_test).threads(1).run(); }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::infinity_test

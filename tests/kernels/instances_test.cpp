@@ -13,8 +13,7 @@
 #include <bit>
 #include <ostream>
 
-namespace glim {
-namespace {
+namespace glim::instances_test {
 
 struct Tally {
     uint rays[3];
@@ -105,5 +104,4 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"FarAndUpright", {0.7, 1.3, 1.1}, {1e4, -3e4, 2e4}, 1e-2F, {0, 0, 0}, 0.0}),
     [](const auto& test) { return test.param.name; });
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::instances_test

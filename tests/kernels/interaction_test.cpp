@@ -9,8 +9,7 @@
 #include <iostream>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::interaction_test {
 
 struct Result {
     PathHit hit;
@@ -232,5 +231,4 @@ TEST(SurfaceNormalTest, FallsBackToTheFlatOne)
     EXPECT_EQ(result.ns, up);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::interaction_test

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace glim {
-namespace {
+namespace glim::intersect_capsule_test {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 0x1p-24;
@@ -187,5 +186,4 @@ TEST(IntersectCapsuleTest, SeenFromWithinAlongTheAxisAndBehind)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::intersect_capsule_test

@@ -14,8 +14,7 @@
 #include <limits>
 #include <optional>
 
-namespace glim {
-namespace {
+namespace glim::intersect_node_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -226,5 +225,4 @@ TEST(IntersectNodeTest, H4H5IsConservative)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::intersect_node_test

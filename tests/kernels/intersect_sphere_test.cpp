@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace glim {
-namespace {
+namespace glim::intersect_sphere_test {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -207,5 +206,4 @@ TEST(IntersectSphereTest, TangentAndAwayAndBehind)
     EXPECT_EQ(distances(cases), (std::vector<float>{3.0F, -1.0F, -1.0F, -1.0F, -1.0F, 1.0F}));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::intersect_sphere_test

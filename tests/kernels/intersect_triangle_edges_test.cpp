@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::intersect_triangle_edges_test {
 
 constexpr std::uint32_t kMaxRim = 6;
 
@@ -113,5 +112,4 @@ TEST(IntersectTriangleEdgesTest, H1NoRayPassesBetweenTwoTriangles) { expectNoLea
 
 TEST(IntersectTriangleEdgesTest, H1NoRayPassesThroughAVertex) { expectNoLeak("vertices", vertexCase); }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::intersect_triangle_edges_test

@@ -12,8 +12,7 @@
 #include <iterator>
 #include <limits>
 
-namespace glim {
-namespace {
+namespace glim::intersect_triangle_test {
 
 enum Verdict : std::uint32_t { Miss = 0, Hit = 1, Either = 2 };
 
@@ -317,5 +316,4 @@ TEST(IntersectTriangleTest, RaysInTheTrianglesPlaneMissIt)
     KernelTest(test_kernels::intersect_triangle_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::intersect_triangle_test

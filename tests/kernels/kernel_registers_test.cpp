@@ -14,8 +14,7 @@
 
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::kernel_registers_test {
 
 TEST(KernelRegistersTest, EachKernelIsCompiledAlone)
 {
@@ -39,5 +38,4 @@ TEST(KernelRegistersTest, EachKernelIsCompiledAlone)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::kernel_registers_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::lat_long_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -101,5 +100,4 @@ TEST(LatLongTest, PolesSeamAndAxes)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::lat_long_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::leave_sphere_test {
 
 TEST(LeaveSphereTest, RaysOutwardsNeverReturnAndRaysInwardsCrossIt)
 {
@@ -21,5 +20,4 @@ TEST(LeaveSphereTest, RaysOutwardsNeverReturnAndRaysInwardsCrossIt)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::leave_sphere_test

@@ -13,8 +13,7 @@
 #include <ostream>
 #include <utility>
 
-namespace glim {
-namespace {
+namespace glim::leave_surface_test {
 
 constexpr std::uint32_t kMaxGroups = 65535;  // of a dispatch, on every device
 
@@ -124,5 +123,4 @@ TEST(CoplanarTest, H7RaysMeetNeitherNeighbourNorCopy)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::leave_surface_test

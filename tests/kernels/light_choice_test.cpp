@@ -17,8 +17,7 @@
 #include <random>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::light_choice_test {
 
 using glm::dvec3;
 using glm::vec3;
@@ -484,5 +483,4 @@ TEST(LightChoiceTest, CertainLightsLackTheirProbability)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::light_choice_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::light_importance_test {
 
 using glm::dvec3;
 
@@ -181,5 +180,4 @@ TEST(LightImportanceTest, IsFiniteAtTheEdgesOfItsDomain)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::light_importance_test

@@ -14,8 +14,7 @@
 #include <functional>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::light_path_test {
 
 using glm::dvec3;
 
@@ -315,5 +314,4 @@ TEST(LightPathChoiceTest, IsByPower)
     EXPECT_EQ(seen, 4.0);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::light_path_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::light_test {
 
 using glm::dvec3;
 using glm::vec3;
@@ -180,5 +179,4 @@ TEST(LightTest, SumsOverAllLights)
     expectIrradiance("all lights", builder.scene(), {{point, {0, 1, 0}, truth}, {free, {0, 1, 0}, freeTruth}});
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::light_test

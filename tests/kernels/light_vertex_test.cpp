@@ -14,8 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::light_vertex_test {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -369,5 +368,4 @@ TEST(LightVertexTest, LightWithinASolidIsAbsorbed)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::light_vertex_test

@@ -17,8 +17,7 @@
 #include <deque>
 #include <functional>
 
-namespace glim {
-namespace {
+namespace glim::long_accumulation_test {
 
 // Different blocks, added again and again: 102,400 samples.
 constexpr std::uint32_t kBlocks = 64, kTurns = 25, kPixels = 64;
@@ -128,5 +127,4 @@ TEST(LongAccumulationTest, H26H27HundredThousandSamples)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::long_accumulation_test

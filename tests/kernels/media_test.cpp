@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace glim {
-namespace {
+namespace glim::media_test {
 
 struct Case {
     uint media, medium, entered, left, innermost, full, inside;
@@ -69,5 +68,4 @@ TEST(MediaTest, FollowsAList)
     KernelTest(test_kernels::media_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::media_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glim {
-namespace {
+namespace glim::mis_test {
 
 struct Case {
     float f, g;
@@ -39,5 +38,4 @@ TEST(MisTest, H22PowerHeuristicNeverOverflows)
     printHardCase("H22", "pdfs 0, 1e-38 ... 3.4e38, infinity", static_cast<double>(cases.size()), "all right");
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::mis_test

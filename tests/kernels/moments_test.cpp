@@ -13,8 +13,7 @@
 #include <limits>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::moments_test {
 
 constexpr int kBlocks = 8;
 
@@ -121,5 +120,4 @@ TEST(MomentsTest, H26LongStreamsAreAccurate)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::moments_test

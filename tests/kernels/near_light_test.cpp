@@ -9,8 +9,7 @@
 
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::near_light_test {
 
 constexpr double kPerThread = 64.0;  // samples behind one of the values that the standard error is made of
 
@@ -45,5 +44,4 @@ TEST(NearLightTest, H13DeviationIsThatOfTheCosine)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::near_light_test

@@ -12,8 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::next_ray_test {
 
 using glm::dot;
 using glm::dvec3;
@@ -262,5 +261,4 @@ TEST_F(NextRayTest, TheLastRayIsTracedOnlyForWhatItAloneFinds)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::next_ray_test

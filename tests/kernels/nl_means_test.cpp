@@ -11,8 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::nl_means_test {
 
 // A film of `blocks` blocks of noisy means about `truth`, each with the standard deviation `noise` of its radiance.
 template <class Truth>
@@ -217,5 +216,4 @@ TEST(NlMeans, EndsWhenItIsTold)
     EXPECT_FALSE(NlMeans(testDevice()).denoise(noisyFilm(64, 64, 2, 0.3F, edge), [] { return false; }));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::nl_means_test

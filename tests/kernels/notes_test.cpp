@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::notes_test {
 
 PathNote noteOf(bool asked)
 {
@@ -65,5 +64,4 @@ TEST(NotesTest, AreNotTakenElsewhere)
     EXPECT_EQ(note.continuation, 0.0F);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::notes_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::octahedral_test {
 
 using glm::dvec3;
 
@@ -42,5 +41,4 @@ TEST(OctahedralTest, VectorsComeBackWithinAStep)
     EXPECT_LE(longest, 3.5 * 0x1p-24);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::octahedral_test

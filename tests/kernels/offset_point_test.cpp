@@ -10,8 +10,7 @@
 #include <iostream>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::offset_point_test {
 
 struct Case {
     vec3 v0, v1, v2, v3;
@@ -161,5 +160,4 @@ TEST(OffsetPointTest, H7RaysDoNotHitTheSurfaceThatTheyLeave)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::offset_point_test

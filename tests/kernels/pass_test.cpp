@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::pass_test {
 
 struct Case {
     uint seed, pixel, index;
@@ -80,5 +79,4 @@ TEST(PassTest, GoesOverChosenPixelsIfAdaptive)
     test.buffers({{kBindChosenPixels, &list}}).specialize(kSpecChosen, 1).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::pass_test

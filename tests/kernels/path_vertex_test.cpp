@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::path_vertex_test {
 
 using glm::dvec3;
 
@@ -148,5 +147,4 @@ TEST(PathVertexTest, AMissHasTheEnvironmentByItsMisWeight)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::path_vertex_test

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::paths_test {
 
 constexpr std::uint32_t kSlots = 100;
 
@@ -89,5 +88,4 @@ TEST(PathsTest, EachBufferIsAtItsBinding)
     EXPECT_EQ(download<RayCounts>(counts, 1)[0].closest, uvec2(0, 2 * kSlots));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::paths_test

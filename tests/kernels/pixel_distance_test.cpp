@@ -8,8 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::pixel_distance_test {
 
 struct Case {
     vec3 meanA, varianceA, meanB, varianceB;
@@ -80,5 +79,4 @@ TEST(PixelDistanceTest, OnlyMoreNoiseThanItsOwnMakesAPixelUnlike)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::pixel_distance_test

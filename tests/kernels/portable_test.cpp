@@ -10,8 +10,7 @@
 #include <iostream>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::portable_test {
 
 struct Case {
     float x, y, exponent;
@@ -101,5 +100,4 @@ TEST(PortableTest, AnglesInUlp)
     EXPECT_LE(sine, 1.3e-7 * 0x1p24);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::portable_test

@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::principled_test {
 
 struct OracleCase {
     vec3 wo, wi;
@@ -43,5 +42,4 @@ TEST(PrincipledTest, OpaqueMaterialsAreReciprocal)
     compareWithOracle("reciprocity, relative", test_kernels::principled_reciprocity_test, cases, albedos.bound());
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::principled_test

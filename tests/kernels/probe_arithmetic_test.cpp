@@ -12,8 +12,7 @@
 
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::probe_arithmetic_test {
 
 TEST(ProbeArithmeticTest, GivesWhatTheOperationsGive)
 {
@@ -53,5 +52,4 @@ TEST(ProbeArithmeticTest, TellsDevicesApartThatGiveOtherBits)
     EXPECT_NE(arithmeticFingerprint(*deviceWith("native,adverse:1")), own);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::probe_arithmetic_test

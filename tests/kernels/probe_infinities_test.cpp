@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::probe_infinities_test {
 
 constexpr std::uint32_t kAnswers = 7, kAll = (1U << kAnswers) - 1;
 
@@ -42,5 +41,4 @@ TEST(ProbeInfinitiesTest, EachMissingAnswerIsRefused)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::probe_infinities_test

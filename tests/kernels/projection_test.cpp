@@ -13,8 +13,7 @@
 #include <numbers>
 #include <optional>
 
-namespace glim {
-namespace {
+namespace glim::projection_test {
 
 using glm::dvec2;
 using glm::dvec3;
@@ -354,5 +353,4 @@ TEST(ProjectionTest, TheEquirectangularMiddleIsAheadAndItsEdgeBehind)
     EXPECT_EQ(results[1].film.x, 0.5F);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::projection_test

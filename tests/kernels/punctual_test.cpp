@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::punctual_test {
 
 struct Case {
     vec3 a, b;           // unit
@@ -78,5 +77,4 @@ TEST(PunctualTest, RangeFalloff)
     KernelTest(test_kernels::punctual_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::punctual_test

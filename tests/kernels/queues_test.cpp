@@ -9,8 +9,7 @@
 #include <numeric>
 #include <utility>
 
-namespace glim {
-namespace {
+namespace glim::queues_test {
 
 constexpr std::uint32_t kGroupSize = 64;  // kernel_test.cpp's
 constexpr std::uint32_t kCapacity = 8192;
@@ -123,5 +122,4 @@ TEST(QueuesTest, RaysAreCountedAndOverflowsReported)
     EXPECT_LE(overflows, 4934U) << "the threads of this dispatch may have queued theirs before";
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::queues_test

@@ -8,8 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::radiance_test {
 
 constexpr uint kLightSamples = 8;
 
@@ -82,5 +81,4 @@ TEST(RadianceTest, DropsLightThatThePassDoesNotWant)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::radiance_test

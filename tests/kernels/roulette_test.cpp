@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace glim {
-namespace {
+namespace glim::roulette_test {
 
 struct Case {
     vec3 throughput;
@@ -51,5 +50,4 @@ TEST(RouletteTest, FixedRuleSparesTheFirstBounce)
     KernelTest(test_kernels::roulette_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::roulette_test

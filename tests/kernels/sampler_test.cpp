@@ -11,8 +11,7 @@
 #include <iostream>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::sampler_test {
 
 struct Case {
     std::uint32_t seed, pixel, index, dimension, sobol;
@@ -212,5 +211,4 @@ TEST(SamplerTest, H32NeighboursAreIndependent)
     std::cout << "  largest |correlation| sqrt(n): " << worst << ", limit " << scoreLimit(tests) << '\n';
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::sampler_test

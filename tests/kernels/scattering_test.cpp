@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::scattering_test {
 
 using glm::dvec3;
 using glm::vec4;
@@ -109,5 +108,4 @@ TEST(ScatteringChannelTest, AreChosenByTheirThroughput)
     expectCounts("channels", counts, std::vector<double>{0.25 * kCount, 0.125 * kCount, 0.625 * kCount}, 1);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::scattering_test

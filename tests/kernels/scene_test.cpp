@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::scene_test {
 
 struct Case {
     uint primitiveRef;
@@ -100,5 +99,4 @@ TEST(SceneTest, IsOnTheDeviceAsItWasMade)
     onDevice.test(test_kernels::scene_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::scene_test

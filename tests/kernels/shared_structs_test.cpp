@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::shared_structs_test {
 
 // Words, all of them named in shared_fields.h, without padding.
 static_assert(sizeof(PathRay) == 32 && sizeof(PathHit) == 16 && sizeof(PathState) == 32 && sizeof(PathRadiance) == 16);
@@ -47,5 +46,4 @@ TEST(SharedStructsTest, HaveEveryFieldInTheSamePlace)
     EXPECT_EQ(number, 1000 + kSharedWords);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::shared_structs_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::sheen_test {
 
 struct Case {
     vec3 wo, wi;
@@ -17,5 +16,4 @@ TEST(SheenTest, IsTheReferences)
     compareWithOracle("sheen, relative, value and masking", test_kernels::sheen_test, oracleCases<Case>("sheen_cases"));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::sheen_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace glim {
-namespace {
+namespace glim::single_sided_test {
 
 struct Segment {
     vec3 from, to;
@@ -132,5 +131,4 @@ TEST(SingleSidedTest, AMirroredFrontStaysTheFront)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::single_sided_test

@@ -12,8 +12,7 @@
 #include <functional>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::sobol_test {
 
 struct Case {
     std::uint32_t index;
@@ -191,5 +190,4 @@ TEST(SobolTest, H33ErrorsFallAsTheyShould)
     EXPECT_GT(naive.edge, -1.5 + 0.15);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::sobol_test

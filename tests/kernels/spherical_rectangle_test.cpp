@@ -12,8 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::spherical_rectangle_test {
 
 struct Case {
     vec3 p, corner, x, y;
@@ -291,5 +290,4 @@ TEST(SphericalRectangleTest, H13NearSquaresAreNotNoisy)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::spherical_rectangle_test

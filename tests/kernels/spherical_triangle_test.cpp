@@ -13,8 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::spherical_triangle_test {
 
 struct Case {
     vec3 p, v0, e1, e2;
@@ -326,5 +325,4 @@ TEST(SphericalTriangleTest, H12HasTheIrradianceOfAPolygon)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::spherical_triangle_test

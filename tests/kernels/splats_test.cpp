@@ -12,8 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::splats_test {
 
 constexpr std::uint32_t kPixels = 5, kFirst = 100;  // pixels 100 to 104 of the picture
 
@@ -188,5 +187,4 @@ TEST(SplatsTest, ClampedLightIsKeptApart)
     EXPECT_EQ(outcome.sums[1], (Sums{16384, 8192, 0, (48 + 24) * 1024 / 3}));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::splats_test

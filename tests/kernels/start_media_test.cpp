@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace glim {
-namespace {
+namespace glim::start_media_test {
 
 struct Case {
     glm::vec3 point;
@@ -73,5 +72,4 @@ TEST(StartMediaTest, HostAndDeviceFindTheSolidsAroundAPoint)
     onDevice.test(test_kernels::start_media_test).cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::start_media_test

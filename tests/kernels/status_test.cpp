@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::status_test {
 
 struct Case {
     uint isBad = 0;
@@ -68,5 +67,4 @@ TEST(StatusTest, H42FlagsALoopThatTheDriverStopped)
     EXPECT_TRUE(stopped || outcome.loopsRun[5] == 70'000);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::status_test

@@ -10,8 +10,7 @@
 #include <functional>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::stop_rule_test {
 
 struct Case {
     LuminanceMoments moments;
@@ -203,5 +202,4 @@ TEST(StopRuleTest, H26LongStreamsAreAccurate)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::stop_rule_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glim {
-namespace {
+namespace glim::texture_filter_test {
 
 struct Case {
     float t;
@@ -183,5 +182,4 @@ TEST(TextureFilterTest, H36SrgbAsItsFormula)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::texture_filter_test

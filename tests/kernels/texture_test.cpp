@@ -9,8 +9,7 @@
 
 #include <cmath>
 
-namespace glim {
-namespace {
+namespace glim::texture_test {
 
 struct Case {
     std::uint32_t texture = 0;
@@ -195,5 +194,4 @@ TEST_P(TexelViewTest, TexelsOfEveryView)
 
 INSTANTIATE_TEST_SUITE_P(Bits, TexelViewTest, testing::Values(2U, 16U, 26U, kMaxTexelViewBits));
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::texture_test

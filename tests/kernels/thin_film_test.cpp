@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace glim {
-namespace {
+namespace glim::thin_film_test {
 
 struct Case {
     float cosine, ior, thickness;
@@ -16,5 +15,4 @@ TEST(ThinFilmTest, IsTheReferences)
     compareWithOracle("thin film, absolute", test_kernels::thin_film_test, oracleCases<Case>("film_cases"));
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::thin_film_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace glim {
-namespace {
+namespace glim::tone_mapping_test {
 
 struct Case {
     vec3 color;
@@ -113,5 +112,4 @@ TEST(ToneMappingTest, TheBrightestLightIsWhite)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::tone_mapping_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::transparency_test {
 
 struct Case {
     vec3 origin;
@@ -159,5 +158,4 @@ TEST(TransparencyTest, RaysWithoutObjectsMeetLampsAndCatchersAlone)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::transparency_test

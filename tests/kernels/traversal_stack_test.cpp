@@ -11,8 +11,7 @@
 #include <bit>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::traversal_stack_test {
 
 constexpr uint kSteps = 64;
 
@@ -102,5 +101,4 @@ TEST(TraversalStackTest, TheStackGivesBackWhatWasPutThereLast)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::traversal_stack_test

@@ -12,8 +12,7 @@
 #include <iostream>
 #include <random>
 
-namespace glim {
-namespace {
+namespace glim::traverse_steps_test {
 
 struct Result {
     PathHit hit;
@@ -174,5 +173,4 @@ TEST(TraverseStepsTest, H6GrowingLineAgreesWithTheReference)
     EXPECT_GT(compared, 250U);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::traverse_steps_test

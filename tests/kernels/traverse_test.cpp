@@ -9,8 +9,7 @@
 #include <bit>
 #include <iostream>
 
-namespace glim {
-namespace {
+namespace glim::traverse_test {
 
 using Case = TraverseCase;
 
@@ -165,5 +164,4 @@ TEST(TraverseSliverTest, H2SliverIsHit)
     EXPECT_NE(test.results<Result>()[0].hit.primitiveRef, kNoPrimitiveRef);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::traverse_test

@@ -9,8 +9,7 @@
 
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::unique_results_test {
 
 using namespace spirv;
 
@@ -75,5 +74,4 @@ TEST(UniqueResults, OfQuotientsAndRoots)
     EXPECT_EQ(countNative(kernels::trace_paths, {}), 2U);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::unique_results_test

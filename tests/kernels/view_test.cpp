@@ -13,8 +13,7 @@
 #include <random>
 #include <set>
 
-namespace glim {
-namespace {
+namespace glim::view_test {
 
 struct Case {
     vec3 value, reference;
@@ -111,5 +110,4 @@ TEST(ViewColorTest, ABlackReferenceLeavesOnlyRightAndWrong)
     test.cases(cases).resultsOf<vec3>(cases.size()).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::view_test

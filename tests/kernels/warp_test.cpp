@@ -13,8 +13,7 @@
 #include <functional>
 #include <numbers>
 
-namespace glim {
-namespace {
+namespace glim::warp_test {
 
 struct Case {
     vec2 u;
@@ -195,5 +194,4 @@ TEST(WarpTest, KeepsUniformityAndMoments)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::warp_test

@@ -10,8 +10,7 @@
 
 #include <ostream>
 
-namespace glim {
-namespace {
+namespace glim::watertight_test {
 
 struct Setup {
     vec3 center;
@@ -90,5 +89,4 @@ TEST(MollerTrumboreTest, H1LeaksAtEdgesAndVertices)
     EXPECT_GT(tally.misses[1], tally.rays[1] / 50);
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::watertight_test
