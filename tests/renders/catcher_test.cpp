@@ -142,7 +142,7 @@ Picture average(const std::vector<Picture>& pictures)
 // the ball are left out: like every picture with alpha, this one takes the background for even within a pixel.
 void expectComposite(bool glossy)
 {
-    constexpr std::uint32_t kFilms = 16, kSide = 32;
+    constexpr std::uint32_t kFilms = 12, kSide = 24;
     const std::uint32_t spp = samplesFor(256, 4);
     RenderSettings settings = squareSettings(kSide, spp);
     const std::vector<Film> wholes = renderSeeds(litByLamp(Object::Ball, glossy).scene(), settings, kFilms);
@@ -182,8 +182,8 @@ TEST(Catcher, SoItIsWithReflections) { expectComposite(true); }
 // is about sqrt(2 / (n K)) times their kurtosis; here below .02.
 TEST(Catcher, AlphaHasTheErrorItStates)
 {
-    constexpr std::uint32_t kFilms = 48;
-    const std::vector<Film> films = renderSeeds(litByLamp(Object::Ball).scene(), catching(24, 1024), kFilms);
+    constexpr std::uint32_t kFilms = 32;
+    const std::vector<Film> films = renderSeeds(litByLamp(Object::Ball).scene(), catching(20, 512), kFilms);
     double measured = 0.0, stated = 0.0;
     std::size_t pixels = 0;
     for (std::size_t i = 0; i < films.front().pixels.size(); ++i) {

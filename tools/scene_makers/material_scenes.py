@@ -253,6 +253,23 @@ def wax():
     return document
 
 
+def product():
+    """A vase, a glass and a ball on a table that is there for its shadows and reflections alone."""
+    document = Document()
+    document.camera("front", (0.0, 1.5, 5.0), (0.0, 0.4, 0.0), 24.0, 1.0)
+    light_by_softboxes(document)
+    table = document.surface_material("table", (0.6, 0.55, 0.5), 0.0, 0.25, extras={"shadowCatcher": True})
+    document.surface("table", rectangle((-4.0, 0.0, 3.0), (8.0, 0.0, 0.0), (0.0, 0.0, -8.0)), table, uv=False)
+    copper = document.surface_material("copper", COPPER, 1.0, 0.2)
+    outline = [(0.0, 0.0), (0.16, 0.0), (0.3, 0.28), (0.1, 0.72), (0.16, 0.9), (0.13, 0.9), (0.0, 0.6)]
+    document.small_surface("vase", lathe(outline).placed((-0.55, 0.001, -0.1)), copper, uv=False)
+    glass = document.surface_material("glass", roughness=0.0, extensions=solid())
+    document.small_surface("tumbler", tumbler(0.28, 0.6)[0].placed((0.12, 0.001, 0.3)), glass, uv=False)
+    paint = document.surface_material("paint", (0.5, 0.03, 0.05), 0.0, 0.35, extensions={"clearcoat": {"clearcoatFactor": 1.0}})
+    document.small_surface("ball", ball(0.32, 40, 20).placed((0.7, 0.32, -0.15)), paint, uv=False)
+    return document
+
+
 def car_paint():
     """Three balls: paint and coat, paint alone, and a coat like orange peel."""
     document = Document()
@@ -299,4 +316,4 @@ def cloth():
 
 
 MATERIAL_SCENES = {"materials": materials, "textures": textures, "normal_map": normal_map_scene, "alpha": alpha, "liquid": liquid,
-                   "wax": wax, "car_paint": car_paint, "cloth": cloth}
+                   "wax": wax, "product": product, "car_paint": car_paint, "cloth": cloth}
