@@ -48,6 +48,7 @@
     ID(NoLight)                                                           \
     ID(ExtensionIgnored)                                                  \
     ID(RestPose)                                                          \
+    ID(StaysSharp) /* moves while the shutter is open */                  \
     ID(RepairedTexels)                                                    \
     ID(ExtrasIgnored)                                                     \
     ID(StudioLight)                                                       \

@@ -143,7 +143,7 @@ bool areSame(const PlacedSphere& a, const PlacedSphere& b) { return a.center == 
 
 bool areSame(const Placement& a, const Placement& b)
 {
-    return a.sharedMesh == b.sharedMesh && a.linear == b.linear && a.translation == b.translation;
+    return a.sharedMesh == b.sharedMesh && a.linear == b.linear && a.translation == b.translation && a.motion == b.motion;
 }
 
 bool areSame(const SharedMesh& a, const SharedMesh& b);

@@ -1,6 +1,7 @@
 #include "host/flatten/caustics.hpp"
 
 #include "host/flatten/piecewise_constant.hpp"
+#include "host/flatten/place_instances.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -76,7 +77,14 @@ BoundingSphere computeBoundingSphere(const Placement& placement, const BoundingS
     // The Frobenius norm is at least the greatest stretch.
     const double stretch = std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
     const double scale = std::cbrt(std::abs(glm::determinant(linear)));
-    return {linear * mesh.center + placement.translation, stretch * mesh.radius, mesh.area * scale * scale};
+    BoundingSphere sphere{linear * mesh.center + placement.translation, stretch * mesh.radius, mesh.area * scale * scale};
+    if (placement.motion) {
+        const Box around{glm::vec3(mesh.center - mesh.radius), glm::vec3(mesh.center + mesh.radius)};
+        const Box swept = placeBoxes(placement, std::span(&around, 1));
+        sphere.center = 0.5 * (glm::dvec3(swept.lo) + glm::dvec3(swept.hi));
+        sphere.radius = glm::length(glm::dvec3(swept.hi) - sphere.center);
+    }
+    return sphere;
 }
 
 // Of each instance of a shared mesh.

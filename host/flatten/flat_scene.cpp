@@ -75,7 +75,7 @@ std::uint64_t sizeInBytes(const FlatScene& scene)
     return bytesOf(scene.nodes) + bytesOf(scene.primitiveRefs) + bytesOf(scene.triangles) + bytesOf(scene.vertices) +
            bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) +
            bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.scattering) + bytesOf(scene.albedos) +
-           bytesOf(scene.caustics) + bytesOf(scene.instances) + textureBytes(scene);
+           bytesOf(scene.caustics) + bytesOf(scene.instances) + bytesOf(scene.motions) + textureBytes(scene);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)
@@ -118,6 +118,7 @@ std::uint64_t fingerprint(const FlatScene& scene)
         instance[0].w = instance[1].w = 0;  // references
         print.addBytes(std::as_bytes(std::span(instance)));
     }
+    print.addBytes(std::as_bytes(std::span(scene.motions.begin(), scene.motions.end())));
     print.add(scene.caustics);  // films with caustics by path tracing are others
     return print.state();
 }
@@ -128,6 +129,9 @@ std::string fingerprint(std::uint64_t scene, const FlatCamera& camera)
     print.addBytes(std::as_bytes(std::span(&camera, 1)).first(offsetof(FlatCamera, projection)));
     if (camera.projection.model != kCentredFilm) {
         print.add(std::vector<FlatProjection>{camera.projection});
+    }
+    if (camera.motion != 0) {
+        print.add(std::vector<std::uint32_t>{camera.motion});
     }
     return hexadecimal(print.state());
 }

@@ -54,11 +54,21 @@ struct LightMark {
     bool operator==(const LightMark&) const = default;
 };
 
+// Where a camera's motion is among those of the scene.
+struct MovingCamera {
+    std::shared_ptr<const Motion> motion;
+    std::uint32_t flat;                 // as FlatCamera::motion
+    std::vector<glm::dvec3> positions;  // on its way
+};
+
 struct FlatScene {
     SharedVector<uvec4> nodes;
     SharedVector<uvec4> primitiveRefs;        // for traversal, in the order of the BVH's leaves
     SharedVector<uvec4> triangles, vertices;  // for shading; empty if no triangle has vertex attributes
     SharedVector<uvec4> instances;            // of shared meshes; empty without kFeatureInstances
+    SharedVector<uvec4> motions;              // of instances in their order, then of cameras (scene_types.h)
+    std::vector<MovingCamera> movingCameras;  // not on the device
+    float frameTime = 0.0F;                   // the frame's time, from when the shutter opens (0) to when it closes (1)
     std::uint32_t triangleCount = 0;
     std::uint32_t firstInstanceRef = 0;                           // references from here on are those of instances (scene_types.h)
     std::uint32_t firstUv = 0, firstTangent = 0, firstColor = 0;  // sections of `vertices`

@@ -144,11 +144,65 @@ void pushPrimitiveRefs(PrimitiveRefs& refs, const Scene& scene, const Primitives
     }
 }
 
+// Returns its place, as in InstanceData.
+std::uint32_t pushMotion(std::vector<uvec4>& texels, const Motion& keys, const glm::dvec3& pivot)
+{
+    constexpr double kLeastAngle = 1e-3;  // sines of less are the angles, to float32
+    texels.push_back(texel(glm::vec3(pivot), static_cast<std::uint32_t>(keys.size())));
+    const auto place = static_cast<std::uint32_t>(texels.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const MotionKey& key = keys[i];
+        const double angle = i + 1 < keys.size() ? 0.5 * turnAfter(keys, i) : 0.0;
+        FlatMotionKey flat{};
+        flat.translation = vec3(key.translation);
+        flat.time = static_cast<float>(key.time);
+        flat.rotation = vec4(key.rotation.x, key.rotation.y, key.rotation.z, key.rotation.w);
+        flat.stretch = vec3(key.stretch[0][0], key.stretch[1][1], key.stretch[2][2]);
+        flat.shear = vec3(key.stretch[1][2], key.stretch[0][2], key.stretch[0][1]);
+        flat.angle = static_cast<float>(angle);
+        flat.inverseSine = angle > kLeastAngle ? static_cast<float>(1.0 / std::sin(angle)) : 0.0F;
+        const auto words = std::bit_cast<std::array<uvec4, kMotionKeyTexels>>(flat);
+        texels.insert(texels.end(), words.begin(), words.end());
+    }
+    return place;
+}
+
+// Close to each other.
+std::vector<glm::dvec3> placesOnTheWay(const Motion& motion)
+{
+    constexpr int kPlaces = 256;
+    std::vector<glm::dvec3> places;
+    for (int i = 0; i <= kPlaces; ++i) {
+        places.emplace_back(transformAt(motion, static_cast<double>(i) / kPlaces)[3]);
+    }
+    return places;
+}
+
+// Those of instances are where pushInstances says.
+void pushMotions(FlatScene& flat, const Scene& scene, const Primitives& primitives)
+{
+    std::vector<uvec4> texels;
+    for (const Placement& placement : primitives.placements) {
+        if (placement.motion) {
+            pushMotion(texels, placement.motion->keys, placement.motion->pivot);
+        }
+    }
+    for (const Camera& camera : scene.cameras) {
+        if (camera.motion) {
+            const Motion motion = relativeTo(scene.origin, *camera.motion);
+            flat.movingCameras.push_back({camera.motion, pushMotion(texels, motion, glm::dvec3(0.0)), placesOnTheWay(motion)});
+        }
+    }
+    flat.motions = std::move(texels);
+    flat.frameTime = scene.shutter ? static_cast<float>(-scene.shutter->open / (scene.shutter->close - scene.shutter->open)) : 0.0F;
+}
+
 void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
 {
     constexpr std::uint64_t kMax = kNoPrimitiveRef;
     std::vector<uvec4> instances;
     std::uint64_t ref = flat.firstInstanceRef, primitive = primitives.count();
+    std::uint32_t motion = 1;
     for (const Placement& placement : primitives.placements) {
         const MeshTree& tree = bvh.meshTrees[placement.sharedMesh];
         const SharedMesh& mesh = primitives.sharedMeshes[placement.sharedMesh];
@@ -156,6 +210,10 @@ void pushInstances(FlatScene& flat, const Primitives& primitives, const WideBvh&
         data.beginRef = static_cast<std::uint32_t>(ref);
         data.firstRef = data.beginRef - tree.firstEntry;
         data.firstPrimitive = static_cast<std::uint32_t>(primitive) - mesh.firstId;
+        if (placement.motion) {
+            data.motion = motion;
+            motion += 1 + static_cast<std::uint32_t>(placement.motion->keys.size()) * kMotionKeyTexels;
+        }
         ref += tree.entryCount;
         primitive += mesh.triangles.size();
         if (std::max(ref, primitive) >= kMax) {
@@ -181,7 +239,7 @@ void pushTree(FlatScene& flat, const Primitives& primitives, const WideBvh& bvh)
         texels[1] = {node.root, 0, 0, 0};
         texels[2] = std::bit_cast<uvec4>(rows[1]);
         texels[3] = std::bit_cast<uvec4>(rows[2]);
-        texels[4] = {instance[1].w, instance[2].w, 0, 0};
+        texels[4] = {instance[1].w, instance[2].w, instance[4].w, 0};
     }
     flat.nodes = std::move(nodes);
 }
@@ -306,7 +364,10 @@ void pushSurfaces(FlatScene& flat, const Scene& scene, const Primitives& primiti
     pushPrimitiveRefs(refs, scene, primitives, bvh);
     flat.primitiveRefs = std::move(refs.texels);
     flat.surfaceFeatures |=
-        refs.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.placements.empty() ? 0U : kFeatureInstances);
+        refs.features | (primitives.spheres.empty() ? 0U : kFeatureSpheres) | (primitives.placements.empty() ? 0U : kFeatureInstances) |
+        (std::ranges::any_of(primitives.placements, [](const Placement& placement) { return placement.motion.has_value(); })
+             ? kFeatureMotion
+             : 0U);
 }
 
 void keepSurfaces(FlatScene& flat, const FlatScene& previous)
@@ -390,6 +451,7 @@ FlatScene flatten(const Scene& scene, const Primitives& primitives, const WideBv
     } else {
         placeSurfaces(flat, primitives, bvh);
     }
+    pushMotions(flat, scene, primitives);
     nodesAreDone();
     if (same == Same::Nothing) {
         pushSurfaces(flat, scene, primitives, bvh);
@@ -441,7 +503,15 @@ FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& le
             camera.up * lens.radius,
             1.0F / lens.focalDistance,
             0,
-            flattenProjection(camera.projection, part, plane, aspect)};
+            flattenProjection(camera.projection, part, plane, aspect),
+            0};
+}
+
+FlatCamera setInMotion(FlatCamera flat, const Camera& camera, const FlatScene& scene)
+{
+    const auto moving = std::ranges::find(scene.movingCameras, camera.motion, &MovingCamera::motion);
+    flat.motion = moving != scene.movingCameras.end() ? moving->flat : 0;
+    return flat;
 }
 
 }  // namespace glim

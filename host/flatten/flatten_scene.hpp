@@ -20,7 +20,11 @@ struct Lens {
     float focalDistance = 1.0F;  // along the view axis to the plane of focus
 };
 
-// `aspectRatio`: width / height of the picture. The picture's height spans the camera's vertical extent.
+// As the camera stands at the frame's time, without its motion. `aspectRatio`: width / height of the picture. The picture's height spans
+// the camera's vertical extent.
 FlatCamera flattenCamera(const Camera& camera, float aspectRatio, const Lens& lens = {});
+
+// The camera with the motion that it has in the scene which was flattened.
+FlatCamera setInMotion(FlatCamera flat, const Camera& camera, const FlatScene& scene);
 
 }  // namespace glim

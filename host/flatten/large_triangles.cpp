@@ -110,8 +110,13 @@ bool areLightsClose(const FlatScene& flat, const Scene& scene)
 
 FeatureMask featuresSeenBy(const FlatScene& flat, const FlatCamera& camera)
 {
-    const bool isClose =
-        std::ranges::any_of(flat.largest, [&](const Triangle& triangle) { return isCloseTo(triangle, glm::dvec3(camera.position)); });
+    std::vector<glm::dvec3> places{glm::dvec3(camera.position)};
+    if (const auto moving = std::ranges::find(flat.movingCameras, camera.motion, &MovingCamera::flat); moving != flat.movingCameras.end()) {
+        places.insert(places.end(), moving->positions.begin(), moving->positions.end());
+    }
+    const bool isClose = std::ranges::any_of(flat.largest, [&](const Triangle& triangle) {
+        return std::ranges::any_of(places, [&](const glm::dvec3& place) { return isCloseTo(triangle, place); });
+    });
     return flat.features | (isClose ? kFeatureLargeTriangles : 0U);
 }
 

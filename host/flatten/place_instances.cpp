@@ -1,5 +1,6 @@
 #include "host/flatten/place_instances.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,10 +22,95 @@ glm::dvec3 boundInverseError(const Placement& placement, const glm::dvec3& farth
     return absolute(placement.linear) * (kGamma * (absolute(inverse) * farthest + glm::abs(inverse * placement.translation)));
 }
 
+// As kGamma, of a motion: its keys are rounded and mixed, its rotation is made of a quaternion and its stretch inverted by cofactors, in
+// float32.
+constexpr double kMovingGamma = 48.0 * 0x1p-24;
+
+// How much an inverse by cofactors may magnify the relative errors of a matrix's entries: 1 if it is diagonal. Higham, "Accuracy and
+// Stability of Numerical Algorithms", 2002, section 7.2, and the permanent of absolute values for the cofactors.
+double conditionOf(const glm::dmat3& stretch)
+{
+    const glm::dmat3 a = absolute(stretch), both = absolute(glm::inverse(stretch)) * a;
+    const double permanent = a[0][0] * (a[1][1] * a[2][2] + a[1][2] * a[2][1]) + a[1][0] * (a[0][1] * a[2][2] + a[0][2] * a[2][1]) +
+                             a[2][0] * (a[0][1] * a[1][2] + a[0][2] * a[1][1]);
+    const glm::dvec3 sums = both * glm::dvec3(1.0);
+    return std::max({sums.x, sums.y, sums.z}) * std::pow(permanent / std::abs(glm::determinant(stretch)), 2.0);
+}
+
+// The longest that the stretch makes a vector that is at most `farthest` long.
+double stretched(const glm::dmat3& stretch, double farthest)
+{
+    return std::sqrt(glm::dot(stretch[0], stretch[0]) + glm::dot(stretch[1], stretch[1]) + glm::dot(stretch[2], stretch[2])) * farthest;
+}
+
+// In the scene's space: how far a point of the mesh that is at most `ofMesh` from its origin, and a point of the scene that is at most
+// `ofScene` from that one's, may be from their places.
+double boundMovingError(const PlacedMotion& motion, double ofMesh, double ofScene)
+{
+    double bound = 0.0;
+    for (const MotionKey& key : motion.keys) {
+        const double placed = stretched(key.stretch, ofMesh + glm::length(motion.pivot)) + glm::length(key.translation);
+        bound = std::max(bound, conditionOf(key.stretch) * (placed + ofScene + glm::length(key.translation)));
+    }
+    return kMovingGamma * bound;
+}
+
+// Of the parts' points from the mesh's origin.
+double reachOf(std::span<const Box> parts)
+{
+    double farthest = 0.0;
+    for (const Box& part : parts) {
+        farthest = std::max(farthest, glm::length(farthestCorner(part)));
+    }
+    return farthest;
+}
+
+// How far a point that is at most `farthest` from the pivot may be from the chord between two places of it, `share` of the way from key
+// `key` to the next one apart: an eighth of share^2 times the greatest acceleration.
+double boundSagitta(const Motion& keys, std::size_t key, double share, double farthest)
+{
+    const glm::dmat3 &from = keys[key].stretch, &to = keys[key + 1].stretch;
+    const double turn = turnAfter(keys, key), length = std::max(stretched(from, farthest), stretched(to, farthest));
+    return share * share / 8.0 * (turn * turn * length + 2.0 * turn * stretched(to - from, farthest));
+}
+
 glm::vec3 roundUp(const glm::dvec3& v)
 {
     const auto up = [](double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); };
     return {up(v.x), up(v.y), up(v.z)};
+}
+
+// Where the motion's transform places the mesh.
+Placement placeBy(const glm::dmat4& transform, const glm::dvec3& pivot)
+{
+    Placement placement;
+    placement.linear = glm::dmat3(transform);
+    placement.translation = placement.linear * pivot + glm::dvec3(transform[3]);
+    return placement;
+}
+
+// Between two keys.
+Box sweepBoxes(const PlacedMotion& motion, std::size_t key, std::span<const Box> parts)
+{
+    constexpr double kStep = 0.125;  // radians
+    const int steps = 1 + static_cast<int>(turnAfter(motion.keys, key) / kStep);
+    Box swept = kEmptyBox;
+    for (int i = 0; i <= steps; ++i) {
+        const glm::dmat4 transform = transformBetween(motion.keys, key, static_cast<double>(i) / steps);
+        swept = unite(swept, placeBoxes(placeBy(transform, motion.pivot), parts));
+    }
+    const double reach = reachOf(parts) + glm::length(motion.pivot);
+    const glm::vec3 margin = roundUp(glm::dvec3(boundSagitta(motion.keys, key, 1.0 / steps, reach)));
+    return {swept.lo - margin, swept.hi + margin};
+}
+
+Box sweepBoxes(const PlacedMotion& motion, std::span<const Box> parts)
+{
+    Box swept = kEmptyBox;
+    for (std::size_t key = 0; key + 1 < motion.keys.size(); ++key) {
+        swept = unite(swept, sweepBoxes(motion, key, parts));
+    }
+    return swept;
 }
 
 }  // namespace
@@ -50,11 +136,17 @@ InstanceData placeInstance(const Placement& placement, const Box& meshBox)
     data.mirrors = glm::determinant(placement.linear) < 0.0 ? 1 : 0;
     const glm::dvec3 placed = absolute(placement.linear) * farthestCorner(meshBox) + glm::abs(placement.translation);
     data.errorBound = roundUp(boundInverseError(placement, placed) + kGamma * placed);
+    if (placement.motion) {
+        data.errorBound = roundUp(glm::dvec3(boundMovingError(*placement.motion, glm::length(farthestCorner(meshBox)), 0.0)));
+    }
     return data;
 }
 
 Box placeBoxes(const Placement& placement, std::span<const Box> parts)
 {
+    if (placement.motion) {
+        return sweepBoxes(*placement.motion, parts);
+    }
     Box placed = kEmptyBox;
     for (const Box& part : parts) {
         const glm::dvec3 low(part.lo), high(part.hi);
@@ -69,6 +161,9 @@ Box placeBoxes(const Placement& placement, std::span<const Box> parts)
 glm::vec3 boundRayError(const Placement& placement, const glm::vec3& farthest)
 {
     // Once for the origin; the way from there to a surface is at most twice as long on each axis.
+    if (placement.motion) {
+        return roundUp(glm::dvec3(boundMovingError(*placement.motion, 0.0, 3.0 * glm::length(glm::dvec3(farthest)))));
+    }
     return roundUp(boundInverseError(placement, 3.0 * glm::dvec3(farthest)));
 }
 

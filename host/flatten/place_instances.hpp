@@ -16,7 +16,7 @@ std::array<glm::vec4, 3> meshFromScene(const Placement& placement);
 // Without references and primitive ids. `meshBox`: of the shared mesh.
 InstanceData placeInstance(const Placement& placement, const Box& meshBox);
 
-// Holds the boxes `parts` of the mesh's space as the placement places them.
+// Holds the boxes `parts` of the mesh's space as the placement places them, at any time.
 Box placeBoxes(const Placement& placement, std::span<const Box> parts);
 
 // How far a ray of the scene, as the kernels transform it, may pass beside its place, per axis. `farthest`: the greatest coordinates of

@@ -299,6 +299,13 @@ bool areIdentical(const glm::dmat4& a, const glm::dmat4& b)
     return std::memcmp(&a, &b, sizeof a) == 0;  // 0 and -0 place vertices differently
 }
 
+bool movesOf(const MeshInstance& instance) { return instance.motion != nullptr; }
+
+bool areIdentical(const MeshInstance& a, const MeshInstance& b)
+{
+    return areIdentical(a.worldFromMesh, b.worldFromMesh) && movesOf(a) == movesOf(b) && (!movesOf(a) || *a.motion == *b.motion);
+}
+
 bool areIdentical(const Sphere& a, const Sphere& b)
 {
     return std::memcmp(&a.center, &b.center, sizeof a.center) == 0 && a.radius == b.radius && a.material == b.material;
@@ -332,9 +339,12 @@ Same compareSurfaces(const Scene& before, const Primitives& primitives, const Sc
     for (const SharedMesh& mesh : primitives.sharedMeshes) {
         isShared[mesh.mesh] = true;
     }
+    if (!std::ranges::equal(before.instances, scene.instances, {}, movesOf, movesOf)) {
+        return Same::Nothing;  // other meshes are shared
+    }
     Same same = Same::Everything;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        if (!areIdentical(before.instances[i].worldFromMesh, scene.instances[i].worldFromMesh)) {
+        if (!areIdentical(before.instances[i], scene.instances[i])) {
             same = same != Same::Nothing && isShared[scene.instances[i].mesh] ? Same::AllButPlacements : Same::Nothing;
         }
     }
@@ -348,6 +358,10 @@ void placeSharedMeshes(const Scene& scene, Primitives& primitives)
         placement.linear = glm::dmat3(worldFromMesh);
         placement.translation =
             placement.linear * primitives.sharedMeshes[placement.sharedMesh].center + (glm::dvec3(worldFromMesh[3]) - scene.origin);
+        const std::shared_ptr<const Motion>& motion = scene.instances[placement.instance].motion;
+        placement.motion =
+            motion ? std::optional(PlacedMotion{relativeTo(scene.origin, *motion), primitives.sharedMeshes[placement.sharedMesh].center})
+                   : std::nullopt;
     }
 }
 

@@ -16,12 +16,21 @@ struct SharedMesh {
     std::vector<bool> hasAlpha;             // by triangle
 };
 
+// A motion of a shared mesh: a point p of its space is where the motion takes p + pivot, relative to the scene's origin.
+struct PlacedMotion {
+    Motion keys;
+    glm::dvec3 pivot{0.0};
+
+    bool operator==(const PlacedMotion&) const = default;
+};
+
 // An instance of a shared mesh. A point p of that mesh's space is at linear * p + translation, relative to the scene's origin.
 struct Placement {
     std::uint32_t instance = 0;  // of the scene
     std::uint32_t sharedMesh = 0;
     glm::dmat3 linear{1.0};
     glm::dvec3 translation{0.0};
+    std::optional<PlacedMotion> motion;  // while the shutter is open; the place above is that of the frame's time
 };
 
 // The triangles of all instances that share no mesh, one instance after the other, then the scene's spheres, then the points or lines of

@@ -256,6 +256,10 @@ private:
 FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat)
 {
     const bool tracked = (flat.features & kFeatureMedia) != 0;
+    if (tracked && (camera.motion != 0 || (flat.features & kFeatureMotion) != 0)) {
+        camera.media = kMediaVary;
+        return camera;
+    }
     camera.media = tracked ? SolidFinder(flat, boundOrigins(camera)).find() : 0;
     return camera;
 }
@@ -264,6 +268,9 @@ bool mayLightsBeInMedia(const FlatScene& flat)
 {
     if ((flat.features & kFeatureMedia) == 0) {
         return false;
+    }
+    if ((flat.features & kFeatureMotion) != 0) {
+        return true;
     }
     Bounds lit;  // around all lights: many cost no more than one
     for (const FlatLight& light : flat.lights) {

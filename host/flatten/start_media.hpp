@@ -5,7 +5,7 @@
 
 namespace glim {
 
-// The camera with the media of its rays (FlatCamera::media).
+// The camera with the media of its rays (FlatCamera::media). While something moves they may vary.
 FlatCamera placeInMedia(FlatCamera camera, const FlatScene& flat);
 
 // Whether a light may lie in a solid. False if no surface of a solid touches the box around all lights, and the middle of that box lies in

@@ -170,6 +170,20 @@ std::vector<double> parseNumbers(const std::string& option, const OptionValue& v
     return numbers;
 }
 
+Shutter parseShutter(const OptionValue& value)
+{
+    constexpr double kLongest = 1e6;
+    const std::string expected =
+        "OPEN,CLOSE in seconds from the frame's time, OPEN at most 0, CLOSE at least 0 and not both 0, as in 0,0.02";
+    const std::vector<double> times = parseNumbers("--shutter", value, {2}, expected);
+    if (!(times[0] <= 0.0 && times[1] >= 0.0 && times[1] > times[0] && times[1] - times[0] <= kLongest)) {
+        refuseValue("--shutter", value.text(), true, expected);
+    }
+    return {times[0] + 0.0, times[1] + 0.0};
+}
+
+std::string describeShutter(const Shutter& shutter) { return exactText(shutter.open) + "," + exactText(shutter.close); }
+
 double parsePercent(const std::string& option, const OptionValue& value)
 {
     const std::string text = value.text();

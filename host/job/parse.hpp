@@ -52,6 +52,8 @@ glm::dvec3 parsePoint(const std::string& option, const OptionValue& value);  // 
 // Finite numbers, as many as one of `counts` says; `expected` describes them in messages.
 std::vector<double> parseNumbers(const std::string& option, const OptionValue& value, const std::vector<std::size_t>& counts,
                                  const std::string& expected);
+Shutter parseShutter(const OptionValue& value);  // "0,0.02", in seconds
+std::string describeShutter(const Shutter& shutter);
 double parsePercent(const std::string& option, const OptionValue& value);   // "1%", in (0, 1000]; returns 1 for 100%
 double parseDuration(const std::string& option, const OptionValue& value);  // "90s", "5m" or "1h", > 0; returns seconds
 std::optional<double> parseExposure(const OptionValue& value);              // "-1.5", in stops; nothing for "auto"

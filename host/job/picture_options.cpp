@@ -182,6 +182,7 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     load.scene = options.sceneIndex;
     load.variant = options.variant;
     load.at = options.at;
+    load.shutter = options.shutter;
     load.animation = options.animation;
     load.environment = options.environment;
     load.environmentRotation = glm::radians(options.environmentRotation);

@@ -26,6 +26,7 @@ struct PictureOptions {
     std::optional<EnvironmentChoice> environment;
     std::string variant, animation;
     std::optional<double> at;          // seconds
+    std::optional<Shutter> shutter;    // of renders
     float environmentRotation = 0.0F;  // degrees
     bool environmentBackground = true;
     std::optional<Sun> sun;

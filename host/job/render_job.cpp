@@ -11,6 +11,12 @@ void addAov(OptionTable& table, RenderJob& options)
             {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.aov);
 }
 
+void addShutter(OptionTable& table, RenderJob& options)
+{
+    table.add("--shutter", "OPEN,CLOSE", "Motion blur: when the shutter opens and closes, in seconds from the frame's time [off]",
+              [&options](const OptionValue& value) { options.shutter = parseShutter(value); });
+}
+
 void addTargets(OptionTable& table, ErrorTarget& target)
 {
     table.add("--target-rmse", "P%", "Stop when the estimated RMSE is this share of the picture's mean, as in 1% [off]",
@@ -89,6 +95,7 @@ void addJobOptions(OptionTable& table, RenderJob& options)
     table.beginGroup("Picture");
     table.addPath("file,SCENE", "FILE", "Scene, .gltf or .glb", options.scene).require();
     addPicture(table, options);
+    addShutter(table, options);
     addAov(table, options);
     table.add("--rows", "BEGIN:END", "Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]",
               [&options](const OptionValue& value) { options.settings.rows = parseRange("--rows", value, kMaxSide); });

@@ -41,6 +41,7 @@ void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame)
     film.sceneFile = options.scene.string();
     film.showsBackground = options.environmentBackground && film.catcher.empty();
     film.identity.settings += describeCamera(options.pose, options.field, options.lens, options.projection);
+    film.identity.settings += options.shutter ? " shutter=" + describeShutter(*options.shutter) : "";
 }
 
 std::optional<Message> findOther(const Film& film, const SceneSession& session, const PictureFrame& frame, const RenderJob& options)

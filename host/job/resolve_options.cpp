@@ -3,6 +3,7 @@
 #include "host/image/picture_file.hpp"
 #include "host/job/movie_writer.hpp"
 #include "host/job/parse.hpp"
+#include "host/render/course.hpp"
 #include "host/text.hpp"
 #include "shaders/shared/limits.h"
 
@@ -87,6 +88,7 @@ const Rule<PictureOptions> kPictureRules[] = {
      "no --rows"},
 };
 
+bool isOfCourse(const RenderJob& job) { return usesCourseEstimators(job.settings); }
 bool isReplay(const RenderJob& job) { return job.replay.has_value(); }
 bool isWithoutCheckpoints(const RenderJob& job) { return !job.checkpoint.isGiven(); }
 bool isWithoutTarget(const RenderJob& job) { return !job.target.isGiven(); }
@@ -106,6 +108,8 @@ const Rule<RenderJob> kRenderRules[] = {
      MessageId::Conflict,
      "has no effect with --replay, which makes no picture"},
     {{"--focus"}, isReplay, MessageId::Conflict, "expected ", "--focal-distance with the number that the render has printed"},
+    {{"--shutter"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
+    {{"--shutter"}, isOfCourse, MessageId::Conflict, "the course's estimators know no time; expected ", "none of them"},
     {{"--flow"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--movie"}, isOnePicture, MessageId::Requires, "is of several pictures; expected ", "--turntable, --frames or --cameras"},
     {{"--movie"}, keepsNoPicture, MessageId::Requires, "is made of pictures, which are kept; expected ", "--image picture.####.png"},

@@ -38,7 +38,7 @@ CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene&
       paths_(shared.paths),
       scene_(shared.scene),
       passSize_(scene, settings_, paths_.capacity()),
-      parameters_(device, scene, camera, settings_),
+      parameters_(device, scene, camera, settings_, place == RayPlace::Centers ? std::optional(scene.frameTime) : std::nullopt),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + paths_.capacity() * sizeof(ChosenPixel)),
       kernels_(kernels && kernels->place == place &&
                        serves(kernels->specialization, specialize(scene, camera, settings_, device.description()))

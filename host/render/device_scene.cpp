@@ -38,7 +38,8 @@ LastingBuffers upload(Device& device, const FlatScene& scene, LastingBuffers bef
             upload(device, "scene's primitive references", scene.primitiveRefs, std::move(before.primitiveRefs)),
             upload(device, "scene's triangles for shading", scene.triangles, std::move(before.triangles)),
             upload(device, "scene's vertices", scene.vertices, std::move(before.vertices)),
-            upload(device, "scene's instances", scene.instances, std::move(before.instances))};
+            upload(device, "scene's instances", scene.instances, std::move(before.instances)),
+            upload(device, "scene's motions", scene.motions, std::move(before.motions))};
 }
 
 // The materials and what lies behind them, as texels.
@@ -119,8 +120,9 @@ DeviceScene::DeviceScene(Device& device, const FlatScene& scene, LastingBuffers 
 std::vector<BindingSlot> DeviceScene::slots()
 {
     std::vector<BindingSlot> slots{{kBindEnvironment, BufferKind::Texel8}};
-    for (const std::uint32_t binding : {kBindNodes, kBindPrimitiveRefs, kBindTriangles, kBindVertices, kBindMaterials, kBindLights,
-                                        kBindLightNodes, kBindAlbedos, kBindEnvironmentCells, kBindCaustics, kBindInstances}) {
+    for (const std::uint32_t binding :
+         {kBindNodes, kBindPrimitiveRefs, kBindTriangles, kBindVertices, kBindMaterials, kBindLights, kBindLightNodes, kBindAlbedos,
+          kBindEnvironmentCells, kBindCaustics, kBindInstances, kBindMotions}) {
         slots.push_back({binding, BufferKind::Texel});
     }
     for (std::uint32_t view = 0; view < kMaxTexelViews; ++view) {
@@ -140,7 +142,8 @@ std::map<std::uint32_t, const Buffer*> DeviceScene::buffers() const
                                                    {kBindLightNodes, &lightNodes_},
                                                    {kBindAlbedos, &albedos_},
                                                    {kBindCaustics, &caustics_},
-                                                   {kBindInstances, lasting_.instances.buffer.get()}};
+                                                   {kBindInstances, lasting_.instances.buffer.get()},
+                                                   {kBindMotions, lasting_.motions.buffer.get()}};
     lasting_.textures->addTo(buffers);
     return buffers;
 }

@@ -34,7 +34,7 @@ struct DeviceArray {
 // What the next scene may have in common with this one.
 struct LastingBuffers {
     std::shared_ptr<const DeviceTextures> textures;
-    DeviceArray nodes, primitiveRefs, triangles, vertices, instances;
+    DeviceArray nodes, primitiveRefs, triangles, vertices, instances, motions;
 };
 
 class DeviceScene {

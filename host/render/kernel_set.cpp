@@ -56,6 +56,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecTexelViews] = static_cast<std::uint32_t>((scene.images->texels.size() >> viewBits) + 1);
     constants[kSpecSobol] = settings.sampler == Sampler::Sobol;
     constants[kSpecLens] = camera.lensRight != vec3(0.0F);
+    constants[kSpecMovingCamera] = camera.motion != 0;
     constants[kSpecProjection] = camera.projection.model;
     constants[kSpecChosen] = settings.adaptive != Adaptive::Off;
     constants[kSpecAov] = static_cast<std::uint32_t>(settings.aov);

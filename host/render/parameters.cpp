@@ -40,7 +40,8 @@ float splatScale(const FlatScene& scene)
     return std::exp2(static_cast<float>(std::clamp(32 - std::ilogb(scene.brightness), -100, 100)));
 }
 
-DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                                   std::optional<float> time)
     : buffer_(device, "render's parameters", BufferKind::Storage, sizeof(RenderParameters))
 {
     const PathLengths lengths = pathLengths(settings);
@@ -71,6 +72,8 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.causticTargets = scene.causticTargets;
     parameters_.causticLights = scene.causticLights;
     parameters_.splatScale = splatScale(scene);
+    parameters_.timeBegin = time.value_or(0.0F);
+    parameters_.timeSpan = time ? 0.0F : 1.0F;
     setCamera(camera, settings.width, settings.height);
 }
 

@@ -27,7 +27,9 @@ float splatScale(const FlatScene& scene);
 
 class DeviceParameters {
 public:
-    DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+    // `time`: of all paths, as in FlatMotionKey; without one they have their own, while the shutter is open.
+    DeviceParameters(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                     std::optional<float> time = std::nullopt);
 
     // No kernel may be running.
     void setCamera(const FlatCamera& camera, std::uint32_t width, std::uint32_t height);

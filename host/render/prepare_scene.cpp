@@ -198,7 +198,7 @@ const Camera& findCamera(const Scene& scene, const std::optional<std::string>& c
 
 FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens)
 {
-    return placeInMedia(flattenCamera(camera, aspectRatio, lens), prepared.flat);
+    return placeInMedia(setInMotion(flattenCamera(camera, aspectRatio, lens), camera, prepared.flat), prepared.flat);
 }
 
 glm::uvec2 defaultSize(const Camera& camera)

@@ -48,7 +48,7 @@ void editScene(PreparedScene& prepared, SceneFile& file, const std::vector<Edit>
 // The camera of that index, else of that name (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);
 
-// With the media that its rays begin in.
+// With its motion, and the media that its rays begin in.
 FlatCamera flattenCamera(const PreparedScene& prepared, const Camera& camera, float aspectRatio, const Lens& lens);
 
 // The default size of a picture: 512 pixels high, and as wide as the camera's aspect ratio says.

@@ -13,6 +13,7 @@
 #include "host/scene/gltf/read_images.hpp"
 #include "host/scene/gltf/read_lights.hpp"
 #include "host/scene/gltf/read_material.hpp"
+#include "host/scene/gltf/read_motion.hpp"
 #include "host/scene/join_scenes.hpp"
 #include "host/scene/make_floor.hpp"
 #include "host/scene/make_studio.hpp"
@@ -391,6 +392,10 @@ Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
     }
     readMaterials(file_, options_, decoded_, scene, warnings);
     readLightsAndCameras(file_, nodes, scene, warnings);
+    if (!isAdded_ && seconds && options_.shutter) {
+        scene.shutter = options_.shutter;
+        readMotion(file_, options_, findAnimation(file_, animations_, options_.animation), *seconds, scene, warnings);
+    }
     return scene;
 }
 

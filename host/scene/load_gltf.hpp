@@ -59,6 +59,7 @@ struct LoadOptions {
     std::uint32_t maxTexture = kMaxImageSide;  // images with a longer side are scaled down
     std::string variant;                       // of KHR_materials_variants; empty: the file's own materials
     std::optional<double> at;                  // seconds into the animation; if absent the file's rest pose
+    std::optional<Shutter> shutter;            // open while things move; only with `at`
     std::string animation;                     // name or index; empty: the first
     float aspectRatio = 1.0F;                  // of the picture, for the framed camera
     float yfov = Camera().yfov;                // of the framed camera

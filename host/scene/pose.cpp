@@ -59,6 +59,7 @@ Camera placeCamera(const Camera& camera, const Pose& pose, const glm::dvec3& sce
     placed.forward = glm::vec3(forward);
     placed.right = glm::vec3(right);
     placed.up = glm::vec3(glm::cross(right, forward));
+    placed.motion = nullptr;
     magnify(placed, pose.zoom);
     return placed;
 }

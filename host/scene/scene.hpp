@@ -6,6 +6,7 @@
 #include "host/image/decode_image.hpp"
 #include "host/image/radiance_map.hpp"
 #include "host/message.hpp"
+#include "host/scene/motion.hpp"
 #include "host/scene/projection.hpp"
 #include "host/shared_vector.hpp"
 #include "shaders/shared/texture_slots.h"
@@ -127,8 +128,9 @@ struct Mesh {
 struct MeshInstance {
     std::string name;
     std::uint32_t mesh = 0;
-    glm::dmat4 worldFromMesh{1.0};  // affine and invertible; if it mirrors, front sides stay front sides
-    std::uint32_t node = kNoIndex;  // of the file
+    glm::dmat4 worldFromMesh{1.0};         // affine and invertible; if it mirrors, front sides stay front sides
+    std::uint32_t node = kNoIndex;         // of the file
+    std::shared_ptr<const Motion> motion;  // while the shutter is open; worldFromMesh is that of the frame's time. Null: it stands still
 };
 
 // What all images of a scene may take: as much as kernels address.
@@ -195,6 +197,7 @@ struct Camera {
     float halfWidth = 1.0F, halfHeight = 1.0F;                 // metres, orthographic: glTF's xmag and ymag, negative if mirrored
     std::optional<float> aspectRatio;                          // width / height, where the file names one
     Projection projection;                                     // from here on; files know none
+    std::shared_ptr<const Motion> motion;  // in the world, while the shutter is open: what turns it from the frame's pose, and where it is
 };
 
 // A motion of the file, which poses the scene at a time.
@@ -220,7 +223,8 @@ struct Scene {
     std::vector<std::string> nodeNames, meshNames;  // of all that the file has, in its order; empty without a name
     std::vector<TextureImage> images;
     std::vector<PunctualLight> lights;
-    std::vector<Camera> cameras;  // never empty after load_gltf: one is framed where the file has none
+    std::vector<Camera> cameras;     // never empty after load_gltf: one is framed where the file has none
+    std::optional<Shutter> shutter;  // by which instances and cameras have motions
     std::optional<Environment> environment;
     std::vector<std::string> variants;  // names in KHR_materials_variants
     std::vector<Animation> animations;

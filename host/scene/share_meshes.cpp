@@ -28,7 +28,8 @@ std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_
     }
     std::ranges::stable_sort(candidates, std::greater(), &Candidate::saved);
     std::uint64_t triangles = countTriangles(uses);
-    std::vector<bool> shared(uses.size(), false);
+    std::vector<bool> shared(uses.size());
+    std::transform(uses.begin(), uses.end(), shared.begin(), [](const MeshUse& use) { return use.moves; });
     for (const Candidate& candidate : candidates) {
         if (triangles <= maxFlatTriangles) {
             break;
@@ -43,10 +44,11 @@ std::vector<MeshUse> countMeshUses(const Scene& scene)
 {
     std::vector<MeshUse> uses;
     for (const Mesh& mesh : scene.meshes) {
-        uses.push_back({0, mesh.indices.size() / 3, scene.materials[mesh.material].emission != glm::vec3(0.0F)});
+        uses.push_back({0, mesh.indices.size() / 3, scene.materials[mesh.material].emission != glm::vec3(0.0F), false});
     }
     for (const MeshInstance& instance : scene.instances) {
         ++uses[instance.mesh].instances;
+        uses[instance.mesh].moves = uses[instance.mesh].moves || instance.motion != nullptr;
     }
     return uses;
 }

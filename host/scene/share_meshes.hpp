@@ -15,10 +15,11 @@ struct MeshUse {
     std::uint64_t instances = 0;
     std::uint64_t triangles = 0;  // of the mesh
     bool emits = false;
+    bool moves = false;  // some instance, while the shutter is open
 };
 
 // One entry for each mesh. Shares as few as the limit allows, and those first that save most triangles. Meshes that emit are never shared:
-// each of their triangles is a light of its own, whatever instance it is of.
+// each of their triangles is a light of its own, whatever instance it is of. Those that move are: rays are moved in their place.
 std::vector<bool> chooseSharedMeshes(std::span<const MeshUse> uses, std::uint64_t maxFlatTriangles = kMaxFlatTriangles);
 
 std::vector<MeshUse> countMeshUses(const Scene& scene);

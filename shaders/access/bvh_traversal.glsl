@@ -140,8 +140,14 @@ void changeSpace(vec3 origin, vec3 direction, uint node, inout NodeGroup group, 
             vec4 z = uintBitsToFloat(texelFetch(sceneNodes, at + 3));
             uvec4 data = texelFetch(sceneNodes, at + 4);
             offsets = InstanceOffsets(data.x, data.y);
-            origin = vec3(dot(x.xyz, origin) + x.w, dot(y.xyz, origin) + y.w, dot(z.xyz, origin) + z.w);
-            direction = vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction));
+            if (hasFeature(kFeatureMotion) && data.z != 0u) {
+                Movement movement = movementNow(data.z);
+                origin = takePointBack(movement, origin);
+                direction = takeVectorBack(movement, direction);
+            } else {
+                origin = vec3(dot(x.xyz, origin) + x.w, dot(y.xyz, origin) + y.w, dot(z.xyz, origin) + z.w);
+                direction = vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction));
+            }
         }
         traversal = makeTraversalRay(origin, direction);
         group.left &= ~(kEntersInstance | kLeavesInstance);

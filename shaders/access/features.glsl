@@ -31,6 +31,7 @@ layout(constant_id = kSpecPathsPerThread) const uint kPathsPerThread = 16u;
 layout(constant_id = kSpecSharedStack) const bool kSharedStack = false;
 layout(constant_id = kSpecSobol) const bool kSobol = true;
 layout(constant_id = kSpecLens) const bool kLens = false;
+layout(constant_id = kSpecMovingCamera) const bool kMovingCamera = false;
 layout(constant_id = kSpecProjection) const uint kProjection = kCentredFilm;
 layout(constant_id = kSpecChosen) const bool kChosen = false;
 layout(constant_id = kSpecAov) const uint kAov = kAovRadiance;

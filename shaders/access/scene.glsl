@@ -3,6 +3,7 @@
 #define GLIM_ACCESS_SCENE
 
 #include "features.glsl"
+#include "motion.glsl"
 #include "shared/scene_types.h"
 
 layout(set = 0, binding = kBindNodes) uniform usamplerBuffer sceneNodes;
@@ -30,6 +31,7 @@ vec3 toFloats(uvec4 texel)
     return uintBitsToFloat(texel.xyz);
 }
 
+// As it is placed at the path's time.
 InstanceData fetchInstance(uint instance)
 {
     int at = int(instance * kInstanceTexels);
@@ -38,7 +40,15 @@ InstanceData fetchInstance(uint instance)
     uvec4 c = texelFetch(sceneInstances, at + 2);
     uvec4 d = texelFetch(sceneInstances, at + 3);
     uvec4 e = texelFetch(sceneInstances, at + 4);
-    return InstanceData(toFloats(a), a.w, toFloats(b), b.w, toFloats(c), c.w, toFloats(d), d.w, toFloats(e), e.w);
+    InstanceData data = InstanceData(toFloats(a), a.w, toFloats(b), b.w, toFloats(c), c.w, toFloats(d), d.w, toFloats(e), e.w);
+    if (hasFeature(kFeatureMotion) && data.motion != 0u) {
+        Movement movement = movementNow(data.motion);
+        data.column0 = moveVector(movement, vec3(1.0, 0.0, 0.0));
+        data.column1 = moveVector(movement, vec3(0.0, 1.0, 0.0));
+        data.column2 = moveVector(movement, vec3(0.0, 0.0, 1.0));
+        data.translation = movePoint(movement, vec3(0.0));
+    }
+    return data;
 }
 
 MaterialData fetchMaterial(uint material)

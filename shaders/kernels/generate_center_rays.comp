@@ -6,6 +6,7 @@
 #define WRITES_STATES
 #define WRITES_NEXT_QUEUE
 #include "access/features.glsl"
+#include "access/path_time.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/camera.glsl"
@@ -14,7 +15,9 @@ void main()
 {
     uint slot = interleavedInvocation();
     if (slot < pass.pixelCount) {
-        uint pixel = makeSampleId(slot).pixel;
+        SampleId id = makeSampleId(slot);
+        uint pixel = id.pixel;
+        beginPath(id);
         vec2 center = vec2(pixel % render.width, pixel / render.width) + 0.5;
         vec2 film = filmFromPixel(center, vec2(render.width, render.height)), plane = film;
         PathRay ray;

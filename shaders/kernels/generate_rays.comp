@@ -9,6 +9,7 @@
 #define WRITES_RADIANCE
 #define WRITES_NEXT_QUEUE
 #define UPDATES_ROUNDS
+#include "access/path_time.glsl"
 #include "access/paths.glsl"
 #include "access/start_media.glsl"
 #include "access/status.glsl"
@@ -37,6 +38,7 @@ void main()
         }
     } else if (slot < slotsOfPass()) {
         SampleId id = makeSampleId(slot);
+        beginPath(id);
         vec2 jitter = unitFloat(samplePair(id, kDimensionPixel, kSobol));
         vec2 corner = vec2(id.pixel % render.width, id.pixel / render.width);
         PathRay ray;

@@ -17,6 +17,7 @@
 #define WRITES_NEXT_QUEUE
 #define UPDATES_ROUNDS
 #include "access/catcher.glsl"
+#include "access/path_time.glsl"
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
 #include "access/status.glsl"
@@ -41,7 +42,9 @@ void visitScattering(uint slot, PathState state)
 
 void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
 {
-    VertexResult vertex = shadeSurface(makeSampleId(slot), ray, hit, state);
+    SampleId id = makeSampleId(slot);
+    beginPath(id);
+    VertexResult vertex = shadeSurface(id, ray, hit, state);
     if (bounceOf(state) == 0u) {
         storeFirstHit(slot, vertex.firstHit);
     }

@@ -6,6 +6,7 @@
 #define READS_RAYS
 #define READS_FIRST_HITS
 #define WRITES_RADIANCE
+#include "access/path_time.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
@@ -20,6 +21,7 @@ vec3 countSteps(PathRay ray)
 vec3 getAov(uint slot)
 {
     if (kAov == kAovBvhSteps) {
+        beginPath(makeSampleId(slot));
         return countSteps(fetchRay(slot));
     }
     FirstHit first = fetchFirstHit(slot);

@@ -9,15 +9,15 @@
 #define UPDATES_STATES
 #define UPDATES_RAY_COUNTS
 #include "access/catcher.glsl"
+#include "access/path_time.glsl"
 #include "access/paths.glsl"
 #include "access/scattering.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
 
 // Traces the path through media that scatter, until it meets something else, ends or has taken as many steps as a dispatch may take.
-void walk(uint slot)
+void walk(uint slot, SampleId id)
 {
-    SampleId id = makeSampleId(slot);
     PathRay ray = fetchRay(slot);
     PathState state = fetchState(slot);
     PathHit hit = PathHit(kScatteredRef, 0.0, vec2(0.0));
@@ -56,12 +56,13 @@ void main()
     }
     if (entry < activePaths()) {
         uint slot = activeQueue[entry];
+        SampleId id = makeSampleId(slot);
+        beginPath(id);
         Steps uncounted = Steps(0u, 0u);
         if (hasFeature(kFeatureScattering)) {
-            walk(slot);
+            walk(slot, id);
         } else {
-            VisibleHit visible = traceVisible(makeSampleId(slot), pass.bounce, fetchRay(slot), sidesOfRay(slot, pass.bounce),
-                                                 uncounted);
+            VisibleHit visible = traceVisible(id, pass.bounce, fetchRay(slot), sidesOfRay(slot, pass.bounce), uncounted);
             storeHit(slot, visible.hit);
             if (hasFeature(kFeatureThinWalls)) {
                 stateWords[2u * slot].xyz = floatBitsToUint(fetchState(slot).throughput * visible.weight);

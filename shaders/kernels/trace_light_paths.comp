@@ -15,6 +15,7 @@
 #include "access/light_path.glsl"
 #include "access/light_traversal.glsl"
 #include "access/light_vertex.glsl"
+#include "access/path_time.glsl"
 #include "access/splats.glsl"
 #include "access/start_media.glsl"
 
@@ -53,6 +54,7 @@ bool takePath(uint entry, out Path path, inout Work work)
 {
     uint slot = entry & ~kUnbegun;
     SampleId id = makeLightPathId(slot);
+    beginLightPath(id);
     if ((entry & kUnbegun) == 0u) {
         path = Path(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot), 0.0);
     } else {

@@ -12,6 +12,7 @@
 #define UPDATES_ROUNDS
 #define UPDATES_RAY_COUNTS
 #include "access/catcher.glsl"
+#include "access/path_time.glsl"
 #include "access/path_vertex.glsl"
 #include "access/radiance.glsl"
 #include "access/traverse.glsl"
@@ -40,6 +41,7 @@ uint fetchEntry(uint entry)
 bool takePath(uint slot, out Path path, inout Work work)
 {
     path = Path(slot, makeSampleId(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot));
+    beginPath(path.id);
     return true;
 }
 

@@ -9,6 +9,7 @@
 #define UPDATES_RADIANCE
 #define UPDATES_RAY_COUNTS
 #include "access/catcher.glsl"
+#include "access/path_time.glsl"
 #include "access/radiance.glsl"
 #include "access/status.glsl"
 #include "access/traverse.glsl"
@@ -22,6 +23,7 @@ void main()
     }
     if (entry < activeShadowRays()) {
         uint slot = shadowQueue[entry];
+        beginPath(makeSampleId(slot));
         ShadowRay ray = fetchShadowRay(slot);
         vec3 clear = transmittance(ray, sidesOfRay(slot, pass.bounce + 1u));
         if (isClear(clear)) {

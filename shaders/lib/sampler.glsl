@@ -9,6 +9,7 @@
 // Dimensions, each a pair of numbers. Those of bounce b begin at kDimensionBounce + b * kDimensionsPerBounce.
 const uint kDimensionPixel = 0u;
 const uint kDimensionLens = 0xffffffffu;
+const uint kDimensionTime = 0xfffffffeu;  // the first number alone
 const uint kDimensionBounce = 1u;
 const uint kDimensionLight = 0u;  // which light
 const uint kDimensionPoint = 1u;  // where on it
@@ -60,7 +61,7 @@ uvec2 sobolPair(SampleId id, uint dimension)
 
 uvec2 samplePair(SampleId id, uint dimension, bool sobol)
 {
-    bool early = dimension < bounceDimension(kSobolBounces, 0u) || dimension == kDimensionLens;
+    bool early = dimension < bounceDimension(kSobolBounces, 0u) || dimension >= kDimensionTime;
     return sobol && early ? sobolPair(id, dimension) : independentPair(id, dimension);
 }
 

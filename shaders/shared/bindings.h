@@ -22,6 +22,7 @@ GLIM_CONST uint kBindEnvironmentCells = 37u;
 GLIM_CONST uint kBindCaustics = 38u;
 GLIM_CONST uint kBindTexels = 40u;  // and the next ones, kMaxTexelViews in all
 GLIM_CONST uint kBindInstances = 48u;
+GLIM_CONST uint kBindMotions = 56u;
 // parameters.glsl
 GLIM_CONST uint kBindParameters = 6u;
 // paths.glsl
@@ -41,7 +42,7 @@ GLIM_CONST uint kBindPages = 20u;
 GLIM_CONST uint kBindLuminance = 21u;
 GLIM_CONST uint kBindBrightest = 23u;
 GLIM_CONST uint kBindSplats = 39u;
-GLIM_CONST uint kBindCatchers = 56u;
+GLIM_CONST uint kBindCatchers = 57u;
 // pass.glsl
 GLIM_CONST uint kBindChosenPixels = 22u;
 // notes.glsl
@@ -83,6 +84,7 @@ GLIM_CONST uint kSpecAov = 14u;             // kAovRadiance ...
 GLIM_CONST uint kSpecFolded = 16u;          // the host has taken pages of the film, and given them back folded
 GLIM_CONST uint kSpecSuspects = 17u;        // each pixel's brightest sample is kept
 GLIM_CONST uint kSpecNotes = 18u;           // the kernels note what they find out about the only path of a pass
+GLIM_CONST uint kSpecMovingCamera = 19u;    // while the shutter is open
 GLIM_CONST uint kSpecStackLevels = 23u;     // as many as the BVH needs
 GLIM_CONST uint kSpecTexelViews = 24u;      // as many as the textures need
 GLIM_CONST uint kSpecPathsPerThread = 25u;  // of the device's class

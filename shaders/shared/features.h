@@ -47,7 +47,8 @@ GLIM_SHARED_BEGIN
     FEATURE(PointColors, 35, "coloured points") /* spheres and lines with colours of their own */ \
     FEATURE(Lines, 36, "lines") /* with Spheres */ \
     FEATURE(Scattering, 37, "scattering volumes") /* with Media */ \
-    FEATURE(Catcher, 38, "shadow catchers")
+    FEATURE(Catcher, 38, "shadow catchers") \
+    FEATURE(Motion, 39, "moving nodes") /* while the shutter is open; with Instances */
 // clang-format on
 
 #ifdef __cplusplus

@@ -215,6 +215,7 @@ struct RenderParameters {
     uint causticTargets, causticLights;      // how many there are (scene_types.h)
     uint lightPaths;                         // per sample of the picture
     float splatScale;                        // units of a splat per W/(sr m^2), a power of two
+    float timeBegin, timeSpan;               // of paths, as in FlatMotionKey; of a span of 0 all have the same time
 };
 
 // Whether a path samples lights at the surface that it meets after `bounce` others. That light has then met bounce + 1 surfaces. At the

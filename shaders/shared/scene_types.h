@@ -15,7 +15,7 @@ GLIM_SHARED_BEGIN
 // child.
 //
 // With kFeatureInstances, a node without entries is an instance of a shared mesh, which has a tree of its own:
-//   (row 0 of meshFromWorld) (root of the mesh's tree, 0, 0, 0) (row 1) (row 2) (firstRef, firstPrimitive of its InstanceData, 0, 0)
+//   (row 0 of meshFromWorld) (root of the mesh's tree, 0, 0, 0) (row 1) (row 2) (firstRef, firstPrimitive, motion of its InstanceData, 0)
 GLIM_CONST uint kNodeTexels = 5u;
 GLIM_CONST uint kMaxLeafRefs = 3u;
 GLIM_CONST uint kFirstNodeBit = 24u;  // 8 leaves have as many references at most
@@ -88,10 +88,24 @@ struct InstanceData {
     vec3 translation;
     uint mirrors;     // 1: the linear part has a negative determinant
     vec3 errorBound;  // of a point of it, from rounding both ways
-    uint unused;
+    uint motion;      // texel of its motion plus 1, or 0; its place above is then that of the frame's time
 };
 GLIM_CONST uint kInstanceTexels = 5u;
 GLIM_CONST uint kNoInstance = 0xffffffffu;
+
+// A motion is a texel (pivot, number of keys) and its keys, two or more. At a key a point p of the mesh's space is at
+// rotation * stretch * (p + pivot) + translation in the scene's. A camera's motion has no stretch and no pivot: it rotates the camera of
+// the frame's time. Between keys all are linear, but the rotation, which turns evenly. Two keys of the same time are a jump.
+struct FlatMotionKey {
+    vec3 translation;
+    float time;         // 0: the shutter opens; 1: it closes
+    vec4 rotation;      // a unit quaternion, x y z w
+    vec3 stretch;       // the diagonal of a symmetric matrix
+    float angle;        // between this quaternion and the next key's, at most a right angle
+    vec3 shear;         // the other entries: yz, xz, xy
+    float inverseSine;  // of the angle; 0: too small for that, and rotations are linear
+};
+GLIM_CONST uint kMotionKeyTexels = 4u;
 
 GLIM_CONST uint kDoubleSided = 1u;  // emits from both sides
 GLIM_CONST float kCoverage = -1.0;  // alpha is the share of light that the surface meets
@@ -304,6 +318,7 @@ struct FlatCamera {
     float inverseFocus;
     uint media;  // in which its rays begin, as in PathRay; kMediaVary: those of one begin elsewhere than those of another
     FlatProjection projection;
+    uint motion;  // texel of its motion plus 1, or 0; its place above is then that of the frame's time
 };
 
 GLIM_SHARED_END

@@ -85,6 +85,7 @@ void graze(PrimitiveRef ref, InstanceData instance)
 void main()
 {
     uint kind = TEST_THREAD % 3u;
+    pathTime = unitFloat(randomBits(4u).x);
     uvec4 a = randomBits(0u), b = randomBits(1u);
     uint index = chooseBin(a.w, render.instanceCount);
     InstanceData instance = fetchInstance(index);

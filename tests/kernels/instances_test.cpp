@@ -35,9 +35,26 @@ struct Row {
     glm::dvec3 origin{0.0};  // of the scene
     double angle = 0.7;      // times the instance's number: the turn
     bool sharedStack = false;
+    bool moves = false;  // as far as each instance has room
 };
 
 void PrintTo(const Row& row, std::ostream* out) { *out << row.name; }
+
+// Turns, grows unevenly, and goes on by up to `way` on each axis.
+Motion moved(const glm::dmat4& from, double way)
+{
+    Motion motion{splitTransform(from)};
+    for (int i = 1; i <= 2; ++i) {
+        const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), 1.2 * i, glm::normalize(glm::dvec3(i, -1.0, 2.0)));
+        glm::dmat4 next = turned * glm::scale(glm::dmat4(glm::dmat3(from)), glm::dvec3(1.0 + 0.1 * i, 1.0 - 0.2 * i, 1.0));
+        next[3] = from[3] + glm::dvec4(0.5 * way * glm::dvec3(i, -i, 1.0), 0.0);
+        MotionKey key = splitTransform(next);
+        key.time = 0.5 * i;
+        key.rotation = glm::dot(motion.back().rotation, key.rotation) < 0.0 ? -key.rotation : key.rotation;
+        motion.push_back(key);
+    }
+    return motion;
+}
 
 Scene rowOf(const Triangles& mesh, const Row& row)
 {
@@ -49,6 +66,9 @@ Scene rowOf(const Triangles& mesh, const Row& row)
         const glm::dmat4 at = glm::translate(glm::dmat4(1.0), row.first + glm::dvec3(i * step, 0.0, 0.0));
         const glm::dmat4 turned = glm::rotate(at, row.angle * (1.0 + i), glm::normalize(glm::dvec3(1.0, 2.0 - 0.3 * i, 0.5)));
         scene.instances.push_back({"", 0, glm::scale(turned, row.scale)});
+        if (row.moves) {
+            scene.instances.back().motion = std::make_shared<const Motion>(moved(scene.instances.back().worldFromMesh, 0.1 * step));
+        }
     }
     return scene;
 }
@@ -101,6 +121,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"Small", glm::dvec3(1e-4), {0, 0, 0}, 1e-5F}, Row{"Large", glm::dvec3(1e4), {0, 0, 0}, 1e-5F},
                     Row{"Far", glm::dvec3(1.0), {1e4, -3e4, 2e4}, 1e-2F},
                     Row{"VeryFar", glm::dvec3(1e3), {1e9, 1e9, -1e9}, 1e-5F, {1e9, 1e9, -1e9}},
+                    Row{"Moving", {0.7, 1.3, 1.1}, glm::dvec3(0.0), 1e-5F, {0, 0, 0}, 0.7, false, true},
+                    Row{"MovingProportions", {-3, 0.2, 1}, {0, 0, 0}, 1e-4F, {0, 0, 0}, 0.7, false, true},
+                    Row{"MovingSmall", glm::dvec3(1e-4), {0, 0, 0}, 1e-5F, {0, 0, 0}, 0.7, false, true},
+                    Row{"MovingFar", glm::dvec3(1.0), {1e4, -3e4, 2e4}, 1e-2F, {0, 0, 0}, 0.7, false, true},
                     Row{"FarAndUpright", {0.7, 1.3, 1.1}, {1e4, -3e4, 2e4}, 1e-2F, {0, 0, 0}, 0.0}),
     [](const auto& test) { return test.param.name; });
 

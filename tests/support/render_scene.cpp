@@ -93,14 +93,14 @@ Film renderFlat(const FlatScene& flat, const Camera& camera, const RenderSetting
 Film renderScene(const Scene& scene, const RenderSettings& settings)
 {
     const FlatScene flat = flattened(scene);
-    const FlatCamera camera = flattenCamera(scene.cameras.front(), aspectOf(settings));
+    const FlatCamera camera = setInMotion(flattenCamera(scene.cameras.front(), aspectOf(settings)), scene.cameras.front(), flat);
     return renderBySchedules(flat, placeInMedia(camera, flat), settings);
 }
 
 std::vector<Film> renderSeeds(const Scene& scene, const RenderSettings& settings, std::uint32_t count)
 {
     const FlatScene flat = flattened(scene);
-    const FlatCamera camera = flattenCamera(scene.cameras.front(), aspectOf(settings));
+    const FlatCamera camera = setInMotion(flattenCamera(scene.cameras.front(), aspectOf(settings)), scene.cameras.front(), flat);
     Renderer renderer(testDevice(), flat, camera, settings);
     std::vector<Film> films;
     for (std::uint32_t seed = 0; seed < count; ++seed) {

@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 472u;
+GLIM_CONST uint kSharedWords = 491u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -45,6 +45,7 @@ struct EverySharedStruct {
     FlatLight light;
     LightNode lightNode;
     InstanceData instance;
+    FlatMotionKey motionKey;
     DisplayPass display;
     ViewPass view;
     NoisyPixel noisy;
@@ -93,12 +94,13 @@ U(parameters.camera.media) U(parameters.camera.projection.model)
 F2(parameters.camera.projection.shift) F2(parameters.camera.projection.scale)
 F3(parameters.camera.projection.radial) F(parameters.camera.projection.radial.w) F2(parameters.camera.projection.radial2)
 F2(parameters.camera.projection.tangential) F(parameters.camera.projection.end)
+U(parameters.camera.motion)
 U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBounces) U(parameters.minPathLength)
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRef) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.firstScattering) U(parameters.hidesEnvironment) U(parameters.darkensObjects) U2(parameters.environmentSize) U2(parameters.environmentCells)
 F2(parameters.environmentRotation) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
-F(parameters.splatScale)
+F(parameters.splatScale) F(parameters.timeBegin) F(parameters.timeSpan)
 U(course_.refCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)
@@ -127,7 +129,9 @@ F(light.size) F3(light.edge1) F(light.versineInner) F3(light.edge2) F(light.vers
 F3(lightNode.center) F(lightNode.radius) F3(lightNode.axis) F(lightNode.power) F(lightNode.cosNormals) F(lightNode.cosEmission)
 U(lightNode.children) U(lightNode.firstLight)
 F3(instance.column0) U(instance.beginRef) F3(instance.column1) U(instance.firstRef) F3(instance.column2) U(instance.firstPrimitive)
-F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.unused)
+F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.motion)
+F3(motionKey.translation) F(motionKey.time) F3(motionKey.rotation) F(motionKey.rotation.w) F3(motionKey.stretch) F(motionKey.angle)
+F3(motionKey.shear) F(motionKey.inverseSine)
 U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
 F(display.scale) U(display.tone) F(display.low) F(display.high)
 U(view.width) U(view.firstRow) U(view.rows) U(view.left) U(view.top) U(view.right) U(view.bottom) U(view.shownAs) F(view.scale) U(view.tone)

@@ -50,6 +50,7 @@ USERS = {
     "RectangleLights": ["shade_surface"],
     "LightTree": ["shade_surface"],
     "Instances": ["trace_closest", "trace_shadow", "shade_surface"],
+    "Motion": ["trace_closest", "trace_shadow", "shade_surface"],
     "LightsInMedia": [],  # trace_light_paths
     "LargeTriangles": ["trace_closest", "trace_shadow", "shade_surface"],
     "SingleSided": ["trace_closest", "trace_shadow"],
@@ -61,6 +62,7 @@ NEEDS = {
     "NormalMaps": ["Principled", "Textures"],
     "VertexColors": ["Principled"],
     "PointColors": ["Principled", "Spheres"],
+    "Motion": ["Instances"],
     "Lines": ["Spheres"],
     "EnvironmentMap": ["Environment"],
     "TextureTransforms": ["Principled", "Textures"],
