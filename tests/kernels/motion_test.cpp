@@ -10,8 +10,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace glim {
-namespace {
+namespace glim::motion_test {
 
 struct MotionCase {
     uint motion;
@@ -66,5 +65,4 @@ TEST(MotionKernelTest, IsWhereTheHostSays)
     test.cases(cases).run();
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::motion_test

@@ -12,8 +12,7 @@
 #include <set>
 #include <span>
 
-namespace glim {
-namespace {
+namespace glim::path_time_test {
 
 constexpr std::uint32_t kPixels = 64, kSamples = 2 * kFirstBlockSamples;
 
@@ -67,5 +66,4 @@ TEST(PathTimeTest, MayBeOneForAll)
     }
 }
 
-}  // namespace
-}  // namespace glim
+}  // namespace glim::path_time_test
