@@ -256,12 +256,12 @@ def wax():
 def product():
     """A vase, a glass and a ball on a table that is there for its shadows and reflections alone."""
     document = Document()
-    document.camera("front", (0.0, 1.5, 5.0), (0.0, 0.4, 0.0), 24.0, 1.0)
+    document.camera("front", (0.0, 1.3, 3.9), (0.05, 0.38, 0.0), 24.0, 1.5)
     light_by_softboxes(document)
     table = document.surface_material("table", (0.6, 0.55, 0.5), 0.0, 0.25, extras={"shadowCatcher": True})
     document.surface("table", rectangle((-4.0, 0.0, 3.0), (8.0, 0.0, 0.0), (0.0, 0.0, -8.0)), table, uv=False)
     copper = document.surface_material("copper", COPPER, 1.0, 0.2)
-    outline = [(0.0, 0.0), (0.16, 0.0), (0.3, 0.28), (0.1, 0.72), (0.16, 0.9), (0.13, 0.9), (0.0, 0.6)]
+    outline = [(0.0, 0.0), (0.18, 0.0), (0.27, 0.12), (0.31, 0.28), (0.25, 0.46), (0.14, 0.62), (0.1, 0.74), (0.16, 0.9), (0.13, 0.9), (0.0, 0.6)]
     document.small_surface("vase", lathe(outline).placed((-0.55, 0.001, -0.1)), copper, uv=False)
     glass = document.surface_material("glass", roughness=0.0, extensions=solid())
     document.small_surface("tumbler", tumbler(0.28, 0.6)[0].placed((0.12, 0.001, 0.3)), glass, uv=False)
