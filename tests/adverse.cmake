@@ -57,6 +57,7 @@ set(tooSlowUnderAdverse
     Scenes/GoldenTest.*/normal_map
     Scenes/GoldenTest.*/textures
     Scenes/GoldenTest.*/veach_mis
+    Scenes/GoldenTest.*/wax
     Scenes/ScanTest.*/Large
     Scenes/ScanTest.*/Mixed
     Scenes/ScanTest.*/OneTriangle

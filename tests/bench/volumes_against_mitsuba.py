@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Scattering volumes by glim and by Mitsuba's volpath, side by side: the means and the blocks of three pictures.
+"""Scattering volumes by glim and by Mitsuba's volpathmis, side by side: the means and the blocks of three pictures.
 
 Usage: volumes_against_mitsuba.py GLIM [SEEDS]
 
@@ -114,7 +114,7 @@ def mitsuba_scene(shape, index, extinction, color, g):
         return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": rgb([value] * 3)}}
     T = mi.ScalarTransform4f
     return mi.load_dict({
-        "type": "scene", "integrator": {"type": "volpath", "max_depth": -1, "rr_depth": 50}, "body": body,
+        "type": "scene", "integrator": {"type": "volpathmis", "max_depth": -1, "rr_depth": 50}, "body": body,
         "floor": mitsuba_mesh(FLOOR, matte(GREY)),
         "lamp": mitsuba_mesh(SQUARE, {"type": "diffuse", "reflectance": rgb([0] * 3)}, emitter={"type": "area", "radiance": rgb([LAMP] * 3)}),
         "sensor": {"type": "perspective", "fov": FOV, "to_world": T().look_at(EYE, TARGET, (0, 1, 0)),

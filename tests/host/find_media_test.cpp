@@ -28,5 +28,26 @@ TEST(FindMediaTest, SolidsOfDifferentMediaThatOverlapAreTracked)
     }
 }
 
+// By its scattering a medium differs from others; the anisotropy of what does not scatter makes none.
+TEST(FindMediaTest, MediaDifferByTheirScattering)
+{
+    const auto count = [](float scattering, float anisotropy) {
+        SceneBuilder builder;
+        Scene scene = builder.cube(1.0F, builder.glass(1.5F), false).sphere({5, 0, 0}, 0.5F, builder.glass(1.5F)).scene();
+        scene.materials[0].absorption = glm::vec3(1.0F);
+        scene.materials[1].absorption = glm::vec3(1.0F - scattering);
+        scene.materials[1].scattering = glm::vec3(scattering);
+        scene.materials[1].scatterAnisotropy = anisotropy;
+        const Media media = findMedia(scene);
+        EXPECT_EQ(media.scattering.size(), media.media.size());
+        EXPECT_EQ(media.media[0].extinction, media.media.back().extinction);
+        EXPECT_EQ(media.scattering.back().albedo, glm::vec3(scattering));
+        return media.media.size();
+    };
+    EXPECT_EQ(count(0.0F, 0.5F), 1U);
+    EXPECT_EQ(count(0.5F, 0.0F), 2U);
+    EXPECT_EQ(count(0.5F, 0.5F), 2U);
+}
+
 }  // namespace
 }  // namespace glim
