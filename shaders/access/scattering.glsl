@@ -46,6 +46,21 @@ uvec4 scatteringBits(SampleId id, uint dimension, PathState state)
     return hash4(uvec4(id.pixel, id.index, dimension | state.bounce, id.seed ^ (countScatterings(state) + 1u) * 0x9e3779b9u));
 }
 
+// A scattering is nowhere closer to the surface ahead than this, so that rounding cannot put it on the other side.
+float scatteringMargin(PathRay ray, float t)
+{
+    vec3 a = abs(ray.origin);
+    return 4.7683716e-7 * (max(a.x, max(a.y, a.z)) + t);
+}
+
+// Of the medium, at most as much as positions in float resolve: mean free paths are 64 margins long. A body so dense looks the same however
+// dense it is, but a walk of shorter steps would not find out of it: a ball of colour .8 lost 6 % with 3 margins, 1.5 % with 16, .5 % with
+// 64.
+vec3 extinctionAlong(PathRay ray)
+{
+    return min(fetchMedium(render.firstMedium, innermost(ray.media)).extinction, vec3(1.0 / (64.0 * scatteringMargin(ray, 0.0))));
+}
+
 // How far the ray goes unless it meets a surface. Infinite outside of media that scatter.
 float sampleFreePath(SampleId id, PathRay ray, PathState state)
 {
@@ -53,15 +68,7 @@ float sampleFreePath(SampleId id, PathRay ray, PathState state)
         return kInfinity;
     }
     uvec4 bits = scatteringBits(id, kDimensionFreePath, state);
-    vec3 extinction = fetchMedium(render.firstMedium, innermost(ray.media)).extinction;
-    return sampleFreePath(extinction[chooseChannel(state.throughput, unitFloat(bits.y))], unitFloat(bits.x));
-}
-
-// A scattering is nowhere closer to the surface ahead than this, so that rounding cannot put it on the other side.
-float scatteringMargin(PathRay ray, float t)
-{
-    vec3 a = abs(ray.origin);
-    return 4.7683716e-7 * (max(a.x, max(a.y, a.z)) + t);
+    return sampleFreePath(extinctionAlong(ray)[chooseChannel(state.throughput, unitFloat(bits.y))], unitFloat(bits.x));
 }
 
 // How far surfaces are looked for.
@@ -88,10 +95,10 @@ vec3 throughputAt(PathRay ray, PathHit hit, vec3 throughput)
     if (!scatters(ray.media)) {
         return throughput;
     }
-    uint medium = innermost(ray.media);
-    vec3 extinction = fetchMedium(render.firstMedium, medium).extinction;
+    vec3 extinction = extinctionAlong(ray);
     if (isScattered(hit)) {
-        return scatteredThroughput(throughput, extinction, fetchScattering(render.firstScattering, medium).albedo, hit.t);
+        vec3 albedo = fetchScattering(render.firstScattering, innermost(ray.media)).albedo;
+        return scatteredThroughput(throughput, extinction, albedo, hit.t);
     }
     return reachedThroughput(throughput, extinction, hit.primitiveRef == kNoPrimitiveRef ? kInfinity : hit.t);
 }

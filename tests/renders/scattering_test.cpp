@@ -171,6 +171,31 @@ struct SlabCase {
     float albedo, depth, anisotropy, cosine, reflected, transmitted;
 };
 
+// However dense, a thick body has its colour: within 1 % too where positions in float do not resolve free paths.
+TEST(ScatteringTest, DenseBodiesLookAlike)
+{
+    const auto estimateOf = [](float extinction, std::uint32_t seed) {
+        RenderSettings settings = squareSettings(16, samplesFor(256));
+        settings.seed = seed;
+        return meanOf(renderScene(furnaceOf("cube", makeVolume(vec3(extinction), vec3(0.99F), 0.0F, 1.0F)), settings));
+    };
+    const MeanEstimate thick = estimateOf(1e3F, 0);
+    for (const float extinction : {1e8F, 1e30F}) {
+        const MeanEstimate dense = estimateOf(extinction, 1);
+        const double error = std::hypot(dense.standardError.x, thick.standardError.x);
+        std::printf("extinction %g: %.5f, of 1e3: %.5f, +- %.5f\n", static_cast<double>(extinction), dense.mean.x, thick.mean.x, error);
+        EXPECT_NEAR(dense.mean.x, thick.mean.x, 0.01 * thick.mean.x + 4.0 * error);
+    }
+}
+
+// Within a white volume radiance is that of the sky around it times the index squared.
+TEST(ScatteringTest, CamerasMayStandWithinVolumes)
+{
+    Scene scene = furnaceOf("ball", makeVolume(vec3(3.0F), vec3(1.0F), 0.3F, 1.4F));
+    scene.cameras[0].position = {0.1F, 0.2F, 0.3F};
+    expectMean("within a white ball", renderScene(scene, squareSettings(16, samplesFor(64))), glm::dvec3(1.96));
+}
+
 // Light paths bring a lamp's light that passes a smooth volume unscattered, camera paths what has scattered there: together as much as
 // camera paths alone, and neither twice.
 TEST(ScatteringTest, LightPathsAndWalksDivideTheLight)
