@@ -34,6 +34,7 @@ TYPES = {
     "samples": "Tuple[int, int]",
     "set": "Dict[str, Any]",
     "shift": "Tuple[float, float]",
+    "shutter": "Tuple[float, float]",
     "size": "Tuple[int, int]",
     "sun": "Tuple[float, float, float]",
     "target_rmse": "float",

@@ -410,7 +410,7 @@ class ManyTest(PythonCase):
     def command_line_films(self, file, *words):
         subprocess.run([GLIM, "render", file, "--size", "16x12", "--spp", "4", *words, "-o", self.path("####.exr"), "--progress", "none"],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        return [glim.read(self.path(name)).digest for name in sorted(os.listdir(self.folder))]
+        return [glim.read(self.path(name)).digest for name in sorted(os.listdir(self.folder)) if name.endswith(".exr")]
 
     def test_turntables(self):
         lamp = glim.load(LAMP, **SMALL)
@@ -419,8 +419,10 @@ class ManyTest(PythonCase):
             self.assertEqual([film.digest for film in films], self.command_line_films(LAMP, "--turntable", "3", *words))
         self.assertEqual(films[1].resume(spp=8).digest, list(lamp.render_many(turntable=3, **options, spp=8))[1].digest)
 
-    def test_times(self):
+    def animated(self, find_node):
+        """The lamp's file with a node that moves for a second."""
         def animate(document):
+            node = find_node(document["nodes"])
             numbers = np.float32([0, 1, 0, .4, 0, 0, 1.4, 0]).tobytes()
             document["buffers"].append({"byteLength": 32, "uri": "data:;base64," + base64.b64encode(numbers).decode()})
             buffer, view, accessor = len(document["buffers"]) - 1, len(document["bufferViews"]), len(document["accessors"])
@@ -428,14 +430,26 @@ class ManyTest(PythonCase):
             document["accessors"] += [{"bufferView": view, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
                                       {"bufferView": view + 1, "componentType": 5126, "count": 2, "type": "VEC3"}]
             document["animations"] = [{"samplers": [{"input": accessor, "output": accessor + 1}],
-                                       "channels": [{"sampler": 0, "target": {"node": 3, "path": "translation"}}]}]
+                                       "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}]}]
         written_anew(self, animate)
-        path = self.path("changed.gltf")
+        return self.path("changed.gltf")
+
+    def test_times(self):
+        path = self.animated(lambda nodes: 3)
         films = list(glim.load(path, **SMALL).render_many(at=np.linspace(0, 1, 3)))
         self.assertEqual([film.time for film in films], [0, .5, 1])
         for film in films:
             self.assertEqual(film.digest, glim.render(path, at=film.time, **SMALL).digest)
         self.assertEqual(len({film.digest for film in films}), 3)
+
+    def test_shutters(self):
+        path = self.animated(lambda nodes: next(i for i, node in enumerate(nodes) if "camera" in node))
+        moving = glim.load(path, **SMALL)
+        digests = {moving.render(at=.5, shutter=shutter).digest for shutter in ((-.1, .1), (0, .1))} | {moving.render(at=.5).digest}
+        self.assertEqual(len(digests), 3)
+        self.assertIn(self.command_line_films(path, "--frames", "1:1", "--fps", "2", "--shutter", "-0.1,0.1")[0], digests)
+        with self.assertRaisesRegex(glim.InputError, "shutter: .*needs a time of an animation"):
+            moving.render(shutter=(0, .1))
 
     def test_cameras(self):
         lamp = glim.load(LAMP, **SMALL)

@@ -79,6 +79,9 @@ class RenderOptions(TypedDict, total=False):
     size: Tuple[int, int]
     """Pixels, each side 1 to 65535 [512 high, width by the camera's aspect ratio]"""
 
+    shutter: Tuple[float, float]
+    """Motion blur: when the shutter opens and closes, in seconds from the frame's time [off]"""
+
     view: Literal["shaded", "normal", "depth", "albedo", "bvh-steps"]
     """Picture of: shaded, normal, depth, albedo or bvh-steps [shaded]"""
 
