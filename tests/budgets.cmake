@@ -11,6 +11,8 @@ set(onlyInCi
     CausticsFilmTest.CountsTheSamplesThatEachPixelHas
     CausticsFilmTest.HasTheSameBitsOfPartsThatAreMerged
     CausticsFilmTest.HasTheSameBitsInBands
+    MotionBlurTest.OfCausticsIsTheMeanOfSharpPictures
+    MotionBlurTest.FindsTheMediaOfEachTime
     Lights/MirroredLightTest.*
     Places/DirectLightTest.*
     DirectLightTest.T3ASphereFromWithin

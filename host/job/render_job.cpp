@@ -13,7 +13,7 @@ void addAov(OptionTable& table, RenderJob& options)
 
 void addShutter(OptionTable& table, RenderJob& options)
 {
-    table.add("--shutter", "OPEN,CLOSE", "Motion blur: when the shutter opens and closes, in seconds from the frame's time [off]",
+    table.add("--shutter", "OPEN,CLOSE", "Motion blur: when the shutter opens and closes, in seconds from the frame [off]",
               [&options](const OptionValue& value) { options.shutter = parseShutter(value); });
 }
 

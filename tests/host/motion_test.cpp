@@ -97,6 +97,7 @@ TEST(MotionTest, KeepsCornersAndJumps)
     MovingFile corners;
     corners.move("translation", {0.0F, 0.3F, 0.55F, 1.0F}, {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 0, 5});
     expectFollows(corners, 0.5, {-0.5, 0.5}, 1e-9);
+    EXPECT_EQ(corners.scene(0.5, Shutter{-0.5, 0.5}).instances[0].motion->size(), 5U) << "those, and the frame's time";
     MovingFile jumps;
     jumps.move("translation", {0.0F, 0.25F, 0.5F, 1.0F}, {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, "STEP");
     expectFollows(jumps, 0.0, {0.0, 1.0}, 1e-9);
@@ -158,6 +159,9 @@ TEST(MotionTest, NamesWhatStaysSharp)
 
     MovingFile vanishing;
     vanishing.move("scale", {0.0F, 0.5F, 1.0F}, {1, 1, 1, 1, 1, 1, 0, 0, 0});
+    MovingFile turnedOver;
+    turnedOver.move("scale", {0.0F, 1.0F}, {1, 1, 1, -0.9F, 1, 1});
+    EXPECT_FALSE(turnedOver.scene(0.25, Shutter{-0.25, 0.75}).instances[0].motion);
     const Scene flat = vanishing.scene(0.25, Shutter{-0.25, 0.75});
     EXPECT_FALSE(flat.instances[0].motion);
     EXPECT_TRUE(hasWarning(flat.warnings, MessageId::StaysSharp, "nodes[1] (\"mover\")"));

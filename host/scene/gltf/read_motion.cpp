@@ -229,10 +229,13 @@ std::vector<std::size_t> MotionReader::listPlacings(std::size_t node)
     return drawn;
 }
 
+// Nothing where it has no inverse, or mirrors other than at the frame's time, so that it has had none before.
 std::optional<glm::dmat4> MotionReader::placingAt(double seconds, std::size_t node, std::size_t placing)
 {
-    const std::vector<glm::dmat4>& all = at(seconds).placings.at(node);
-    return placing < all.size() && hasInverse(all[placing]) ? std::optional(all[placing]) : std::nullopt;
+    const auto mirrors = [](const glm::dmat4& transform) { return glm::determinant(glm::dmat3(transform)) < 0.0; };
+    const std::vector<glm::dmat4>&all = at(seconds).placings.at(node), &now = at(seconds_).placings.at(node);
+    const bool isUsual = placing < all.size() && hasInverse(all[placing]) && mirrors(all[placing]) == mirrors(now[placing]);
+    return isUsual ? std::optional(all[placing]) : std::nullopt;
 }
 
 void MotionReader::readInstance(MeshInstance& instance, std::size_t placing)
