@@ -339,7 +339,7 @@ void warnOfPicture(const Film& film, const RenderStatistics& statistics, const R
         warn(MessageId::ScatteringCap,
              {part::value(std::to_string(statistics.scatteringCaps)), " paths scattered ", part::expected(std::to_string(kMaxScatterings)),
               " times between two surfaces and ended there; of light that is the same all around, the picture lacks ",
-              part::value(format("%.2g %%", 100.0 * statistics.cutThroughput / countSamples(film))), "."});
+              format("%.2g %%", 100.0 * statistics.cutThroughput / countSamples(film)), "."});
     }
     if (std::isfinite(settings.clampIndirect)) {
         const ClampedEnergy energy = computeClampedEnergy(film);

@@ -1,6 +1,7 @@
 // What the program says of materials, textures, environments and exposure, and how it refuses what it cannot use.
 #include "host/image/decode_image.hpp"
 #include "host/image/exr.hpp"
+#include "shaders/shared/limits.h"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/gltf_builder.hpp"
@@ -155,6 +156,23 @@ TEST_F(LooksTest, InspectSaysHowVolumesScatterAndWhatLightMisses)
     EXPECT_TRUE(warns());
     document["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0.05;
     EXPECT_FALSE(warns());
+}
+
+// A ball of milk whose free path is a micrometre.
+TEST_F(LooksTest, RendersSayHowManyWalksWereCut)
+{
+    writeBall();
+    json document = jsonIn("scene.gltf");
+    document["materials"][0]["extensions"]["KHR_materials_volume"].erase("attenuationDistance");
+    document["materials"][0]["extensions"]["KHR_materials_subsurface"] = {{"scatterColor", {0.5, 0.5, 0.5}}, {"scatterDistance", 1e-6}};
+    writeText(folder_ / "scene.gltf", document.dump());
+    const GlimRun rendered =
+        run({"render", "scene.gltf", "-o", "a.exr", "--size", "8x8", "--spp", "32", "--environment", "1,1,1", "--stats", "a.json"});
+    const json statistics = jsonIn("a.json");
+    EXPECT_GT(statistics.at("scatteringCaps"), 0);
+    EXPECT_NEAR(statistics.at("cutThroughput"), statistics.at("scatteringCaps"), 0.01 * statistics.at("scatteringCaps").get<double>());
+    expectSaid(rendered, MessageId::ScatteringCap,
+               {.value = std::to_string(statistics.at("scatteringCaps").get<int>()), .expected = std::to_string(kMaxScatterings)});
 }
 
 TEST_F(LooksTest, InspectSaysWhatBecomesOfSingleSidedMaterials)
