@@ -21,6 +21,14 @@ RenderSettings makeRaySettings(RenderSettings settings)
     return settings;
 }
 
+// A ray ends at the first surface, wherever the camera stands: it is not scattered before.
+Specialization specializeRays(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, const Device& device)
+{
+    Specialization constants = specialize(scene, camera, settings, device.description());
+    constants[kSpecUpperFeatures] &= ~static_cast<std::uint32_t>(kFeatureScattering >> 32U);
+    return constants;
+}
+
 }  // namespace
 
 CameraRayKernels::CameraRayKernels(Device& device, const Specialization& constants, RayPlace rayPlace)
@@ -40,10 +48,9 @@ CameraRays::CameraRays(Device& device, SharedResources& shared, const FlatScene&
       passSize_(scene, settings_, paths_.capacity()),
       parameters_(device, scene, camera, settings_, place == RayPlace::Centers ? std::optional(scene.frameTime) : std::nullopt),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + paths_.capacity() * sizeof(ChosenPixel)),
-      kernels_(kernels && kernels->place == place &&
-                       serves(kernels->specialization, specialize(scene, camera, settings_, device.description()))
+      kernels_(kernels && kernels->place == place && serves(kernels->specialization, specializeRays(scene, camera, settings_, device))
                    ? std::move(kernels)
-                   : std::make_shared<CameraRayKernels>(device, specialize(scene, camera, settings_, device.description()), place)),
+                   : std::make_shared<CameraRayKernels>(device, specializeRays(scene, camera, settings_, device), place)),
       even_(bind(0)),
       odd_(bind(1))
 {

@@ -150,6 +150,9 @@ void PathBuffers::queueShadowRays(std::span<const ShadowRay> rays, std::uint32_t
         ray.contribution = vec3(1.0F);
     }
     upload(shadowRays_, std::span<const ShadowRay>(light));
+    PathState met{};
+    met.bounce = 1;  // what trace_shadow reads where volumes scatter
+    upload(states_, std::span<const PathState>(std::vector<PathState>(rays.size(), met)));
     upload(shadowQueue_, std::span<const uint>(firstSlots(rays.size())));
     upload(radiance_, std::span<const PathRadiance>(std::vector<PathRadiance>(rays.size())));
 }

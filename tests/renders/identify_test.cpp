@@ -1,5 +1,6 @@
 // Layers of ids, against areas known on paper and against what the film itself has seen.
 #include "host/render/identify.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/image/cryptomatte.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/prepare_in_memory.hpp"
@@ -369,6 +370,25 @@ TEST(IdentifyTest, PointsAreTheNodeOfTheirCloud)
     EXPECT_EQ(ids.counts.at("mesh.X")[2], 0U);
     EXPECT_TRUE(nodesAt(2, 3).contains(matteId("cloud")));
     EXPECT_TRUE(nodesAt(1, 1).contains(matteId("ball")));
+}
+
+// From within milk the ids are those of clear water: rays that only ask what is ahead are not scattered.
+TEST(IdentifyTest, VolumesDoNotScatterRaysThatAskForIds)
+{
+    const auto idsWithin = [](float scattering) {
+        SceneBuilder builder = cards();
+        addCard(builder, -1.0F, 0.3F, 1.0F, builder.lambert(glm::vec3(0.5F)));
+        builder.sphere({0, 0, 0}, 9.0F, builder.glass(1.3F)).environment(glm::vec3(1.0F));
+        Scene scene = builder.scene();
+        scene.materials[1].scattering = glm::vec3(scattering);
+        scene.materials[1].absorption = glm::vec3(0.1F);
+        const PreparedScene prepared = prepare(nameParts(scene));
+        const FlatCamera camera = placeInMedia(flattenCamera(prepared.scene.cameras.front(), 1.0F), prepared.flat);
+        Renderer renderer(testDevice(), prepared.flat, camera, squareSettings(8, 4));
+        const Film film = renderer.render([](const RenderProgress&) { return true; });
+        return Identifier(renderer, prepared, camera).rows(film, 0, 8).channels;
+    };
+    EXPECT_EQ(idsWithin(2.0F), idsWithin(0.0F));
 }
 
 }  // namespace
