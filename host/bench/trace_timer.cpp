@@ -46,6 +46,9 @@ RaySets captureRays(RenderResources& resources, std::uint32_t pixels)
             sets.diffuse = queued<PathRay>(paths.rays(), paths.nextQueue(0), rounds[at.pass.round + 1].paths.count, pixels);
         }
     });
+    for (std::vector<PathRay>* rays : {&sets.primary, &sets.diffuse}) {
+        std::ranges::for_each(*rays, [](PathRay& ray) { ray.media = 0; });  // so that none is scattered on its way
+    }
     return sets;
 }
 
