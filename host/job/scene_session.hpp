@@ -22,8 +22,8 @@ public:
 
     // The scene with these edits of its files, at that time. If a file refuses, throws InputError and changes nothing.
     void pose(const std::vector<Edit>& edits, std::optional<double> time);
-    // The scene with the present edits at another time, which changes nothing here.
-    Scene sceneAt(double time) { return file_.sceneAt(time); }
+    // The scene with the present edits at another time, without motion blur, which changes nothing here.
+    Scene sceneAt(double time) { return file_.sceneAt(time, false); }
     // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
     // schedule is the faster one.
     Renderer& begin(const FlatCamera& camera, RenderSettings settings);

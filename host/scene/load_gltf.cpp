@@ -313,7 +313,8 @@ public:
     }
 
     // Without the lights and cameras that the options give it.
-    Scene read(std::optional<double> seconds, Warnings& warnings);
+    // `blurred`: with motions while the options' shutter is open.
+    Scene read(std::optional<double> seconds, bool blurred, Warnings& warnings);
     Camera frame(const Scene& scene);
 
     DecodedParts& decoded() { return decoded_; }
@@ -355,7 +356,7 @@ Camera FilePart::frame(const Scene& scene)
     return placeFramed(*framed_, scene.origin);
 }
 
-Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
+Scene FilePart::read(std::optional<double> seconds, bool blurred, Warnings& warnings)
 {
     Scene scene;
     scene.variants = readVariants(file_);
@@ -392,7 +393,7 @@ Scene FilePart::read(std::optional<double> seconds, Warnings& warnings)
     }
     readMaterials(file_, options_, decoded_, scene, warnings);
     readLightsAndCameras(file_, nodes, scene, warnings);
-    if (!isAdded_ && seconds && options_.shutter) {
+    if (blurred && seconds && options_.shutter) {
         scene.shutter = options_.shutter;
         readMotion(file_, options_, findAnimation(file_, animations_, options_.animation), *seconds, scene, warnings);
     }
@@ -512,9 +513,9 @@ SceneFile::SceneFile(const std::filesystem::path& file, const LoadOptions& optio
 
 SceneFile::~SceneFile() = default;
 
-Scene SceneFile::read(std::optional<double> seconds, Warnings& warnings)
+Scene SceneFile::read(std::optional<double> seconds, bool blurred, Warnings& warnings)
 {
-    Scene scene = contents_->main.read(seconds, warnings);
+    Scene scene = contents_->main.read(seconds, blurred, warnings);
     if (options_.sun) {
         scene.lights.push_back(lightOf(*options_.sun));
     }
@@ -530,7 +531,7 @@ Scene SceneFile::read(std::optional<double> seconds, Warnings& warnings)
             Warnings own;
             contents_->firstNodes.push_back(node);
             contents_->firstMaterials.push_back(material);
-            others.push_back({contents_->added[i].read(std::nullopt, own), options_.additions[i].worldFromFile});
+            others.push_back({contents_->added[i].read(std::nullopt, false, own), options_.additions[i].worldFromFile});
             for (const Message& message : own.messages()) {
                 warnings.add(Message(message, {part::file(others.back().scene.file), ": ", message.sentence}));
             }
@@ -555,7 +556,7 @@ Scene SceneFile::addFloor(Scene scene, bool isPosed)
     }
     if (!contents_->floor) {
         Warnings unheard;
-        contents_->floor = makeFloor(*options_.floor, isPosed ? read(std::nullopt, unheard) : scene);
+        contents_->floor = makeFloor(*options_.floor, isPosed ? read(std::nullopt, false, unheard) : scene);
     }
     return joinScenes(std::move(scene), {{*contents_->floor, glm::dmat4(1.0)}}, contents_->joinedFloor);
 }
@@ -596,7 +597,7 @@ void SceneFile::chooseLight(Scene& scene, bool isPosed, Warnings& warnings)
     }
     if (!contents_->litShare) {
         Warnings unheard;
-        const Scene rest = isPosed ? read(std::nullopt, unheard) : Scene();
+        const Scene rest = isPosed ? read(std::nullopt, false, unheard) : Scene();
         const Scene& estimated = isPosed ? rest : scene;
         contents_->litShare = estimateLitShare(estimated, estimated.cameras.front());
     }
@@ -614,13 +615,13 @@ void SceneFile::chooseLight(Scene& scene, bool isPosed, Warnings& warnings)
 
 void SceneFile::release() { contents_.reset(); }
 
-Scene SceneFile::sceneAt(std::optional<double> seconds)
+Scene SceneFile::sceneAt(std::optional<double> seconds, bool blurred)
 {
     if (!contents_) {
         contents_ = std::make_unique<Contents>(path_, options_);
     }
     Warnings warnings;
-    Scene scene = addFloor(read(seconds, warnings), seconds.has_value());
+    Scene scene = addFloor(read(seconds, blurred, warnings), seconds.has_value());
     markCatchers(scene);
     checkScene(scene);
     chooseLight(scene, seconds.has_value(), warnings);

@@ -85,8 +85,8 @@ public:
 
     // The scene at `seconds` into the animation; if absent in the file's rest pose. It has passed checkScene. A framed camera sees the
     // file's whole rest pose, at any time, and what is added as it comes. Throws InputError with one sentence that names file, place, value
-    // and what was expected.
-    Scene sceneAt(std::optional<double> seconds);
+    // and what was expected. `blurred`: with motions while the options' shutter is open.
+    Scene sceneAt(std::optional<double> seconds, bool blurred = true);
     // Frees what was read; the next scene reads it again.
     void release();
     // Edits in place of those of the options. Buffers, images and maps stay, and meshes that no edit bends. A pointer begins with the name
@@ -106,7 +106,7 @@ private:
     struct Contents;
 
     // Without the light that chooseLight gives it.
-    Scene read(std::optional<double> seconds, Warnings& warnings);
+    Scene read(std::optional<double> seconds, bool blurred, Warnings& warnings);
     // The floor, under the rest pose.
     Scene addFloor(Scene scene, bool isPosed);
     void markCatchers(Scene& scene) const;
