@@ -156,15 +156,19 @@ TEST(MotionTest, NamesWhatStaysSharp)
     ball.document["nodes"][1].erase("mesh");
     ball.document["nodes"][1]["extras"] = {{"sphere", {{"radius", 1.0}}}};
     EXPECT_TRUE(hasWarning(ball.scene(0.5, Shutter{-0.5, 0.5}).warnings, MessageId::StaysSharp, "nodes[1] (\"mover\")"));
+}
 
-    MovingFile vanishing;
-    vanishing.move("scale", {0.0F, 0.5F, 1.0F}, {1, 1, 1, 1, 1, 1, 0, 0, 0});
-    MovingFile turnedOver;
-    turnedOver.move("scale", {0.0F, 1.0F}, {1, 1, 1, -0.9F, 1, 1});
-    EXPECT_FALSE(turnedOver.scene(0.25, Shutter{-0.25, 0.75}).instances[0].motion);
-    const Scene flat = vanishing.scene(0.25, Shutter{-0.25, 0.75});
-    EXPECT_FALSE(flat.instances[0].motion);
-    EXPECT_TRUE(hasWarning(flat.warnings, MessageId::StaysSharp, "nodes[1] (\"mover\")"));
+TEST(MotionTest, IsForWhatHasAPlaceAtEachTime)
+{
+    MovingFile vanishes, turnsOver, leaves;
+    vanishes.move("scale", {0.0F, 0.5F, 1.0F}, {1, 1, 1, 1, 1, 1, 0, 0, 0});
+    turnsOver.move("scale", {0.0F, 1.0F}, {1, 1, 1, -0.9F, 1, 1});
+    leaves.move("translation", {0.0F, 1.0F}, {0, 0, 0, 1e25F, 0, 0});
+    for (const MovingFile* file : {&vanishes, &turnsOver, &leaves}) {
+        const Scene scene = file->scene(0.0, Shutter{0.0, 1.0});
+        EXPECT_FALSE(scene.instances[0].motion);
+        EXPECT_TRUE(hasWarning(scene.warnings, MessageId::StaysSharp, "nodes[1] (\"mover\")"));
+    }
 }
 
 // Random motions: each point of the box is in the box around all times.

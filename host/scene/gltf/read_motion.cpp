@@ -77,6 +77,14 @@ glm::dmat4 worldFromCamera(const Camera& camera, const glm::dvec3& origin)
 
 bool hasInverse(const glm::dmat4& transform) { return !isFlattening({0, transform}); }
 
+// Whether kernels can move something there: float32 has to hold the cofactors of its stretch, and its place.
+bool isMovable(const glm::dmat4& transform)
+{
+    constexpr double kMinScale = 1e-9, kMaxScale = 1e9, kFarthest = 1e18;
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(transform))));
+    return scale >= kMinScale && scale <= kMaxScale && glm::length(glm::dvec3(transform[3])) <= kFarthest;
+}
+
 std::array<glm::dvec3, 8> cornersOf(const Mesh& mesh)
 {
     glm::dvec3 low(mesh.positions[mesh.indices.front()]), high(low);
@@ -234,8 +242,8 @@ std::optional<glm::dmat4> MotionReader::placingAt(double seconds, std::size_t no
 {
     const auto mirrors = [](const glm::dmat4& transform) { return glm::determinant(glm::dmat3(transform)) < 0.0; };
     const std::vector<glm::dmat4>&all = at(seconds).placings.at(node), &now = at(seconds_).placings.at(node);
-    const bool isUsual = placing < all.size() && hasInverse(all[placing]) && mirrors(all[placing]) == mirrors(now[placing]);
-    return isUsual ? std::optional(all[placing]) : std::nullopt;
+    const bool isUsual = placing < all.size() && hasInverse(all[placing]) && isMovable(all[placing]);
+    return isUsual && mirrors(all[placing]) == mirrors(now[placing]) ? std::optional(all[placing]) : std::nullopt;
 }
 
 void MotionReader::readInstance(MeshInstance& instance, std::size_t placing)
@@ -253,7 +261,7 @@ void MotionReader::readInstance(MeshInstance& instance, std::size_t placing)
                                                                  deviationOf(cornersOf(mesh), instance.worldFromMesh))) {
         instance.motion = std::make_shared<const Motion>(*motion);
     } else {
-        note("what is scaled to a plane, a line or a point while the shutter is open has no motion blur", node);
+        note("what vanishes, turns over or leaves the range of numbers while the shutter is open has no motion blur", node);
     }
 }
 

@@ -80,7 +80,7 @@ class RenderOptions(TypedDict, total=False):
     """Pixels, each side 1 to 65535 [512 high, width by the camera's aspect ratio]"""
 
     shutter: Tuple[float, float]
-    """Motion blur: when the shutter opens and closes, in seconds from the frame's time [off]"""
+    """Motion blur: when the shutter opens and closes, in seconds from the frame [off]"""
 
     view: Literal["shaded", "normal", "depth", "albedo", "bvh-steps"]
     """Picture of: shaded, normal, depth, albedo or bvh-steps [shaded]"""
