@@ -76,6 +76,12 @@ class Document:
             "bufferView": self.view(pack("f", [c for v in values for c in v]), target=34962), "componentType": FLOAT,
             "count": len(values), "type": "VEC%d" % len(values[0])})
 
+    def seconds(self, times):
+        """Of keyframes, ascending."""
+        return self.append("accessors", {
+            "bufferView": self.view(pack("f", times)), "componentType": FLOAT, "count": len(times), "type": "SCALAR",
+            "min": [times[0]], "max": [times[-1]]})
+
     def indices(self, indices):
         small = max(indices) < 65535
         return self.append("accessors", {

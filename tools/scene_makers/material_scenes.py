@@ -254,7 +254,7 @@ def wax():
 
 
 def product():
-    """A vase, a glass and a ball on a table that is there for its shadows and reflections alone."""
+    """A vase, a glass and a ball, which slides away within a second, on a table that is there for its shadows and reflections alone."""
     document = Document()
     document.camera("front", (0.0, 1.3, 3.9), (0.05, 0.38, 0.0), 24.0, 1.5)
     light_by_softboxes(document)
@@ -266,7 +266,11 @@ def product():
     glass = document.surface_material("glass", roughness=0.0, extensions=solid())
     document.small_surface("tumbler", tumbler(0.28, 0.6)[0].placed((0.12, 0.001, 0.3)), glass, uv=False)
     paint = document.surface_material("paint", (0.5, 0.03, 0.05), 0.0, 0.35, extensions={"clearcoat": {"clearcoatFactor": 1.0}})
-    document.small_surface("ball", ball(0.32, 40, 20).placed((0.7, 0.32, -0.15)), paint, uv=False)
+    slider = document.small_surface("ball", ball(0.32, 40, 20).placed((0.7, 0.32, -0.15)), paint, uv=False)
+    x, y, z = document.json["nodes"][slider]["translation"]
+    document.append("animations", {"name": "slide", "samplers": [{
+        "input": document.seconds([0.0, 1.0]), "output": document.vectors([(x, y, z), (x + 0.6, y, z - 0.4)])}], "channels": [{
+            "sampler": 0, "target": {"node": slider, "path": "translation"}}]})
     return document
 
 
