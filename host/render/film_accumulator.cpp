@@ -235,12 +235,15 @@ void FilmAccumulator::resume(Checkpoint checkpoint)
     film_.identity = fresh.identity;  // without what a film's file says of its camera
     film_.device += film_.device.find(fresh.device) == std::string::npos ? "; " + fresh.device : "";
     addArithmetic(film_, fresh.arithmetic);
+    const auto partOf = [this](const auto& page, const Tile& tile) {
+        return std::span(page).subspan(tile.begin() - settings_.firstPixel(), tile.count());
+    };
     for (const auto& tile : tiles_) {
         if (!checkpoint.page.empty()) {
-            tile->writePages(std::span(checkpoint.page).subspan(tile->begin() - settings_.firstPixel(), tile->count()));
+            tile->writePages(partOf(checkpoint.page, *tile));
         }
         if (!checkpoint.pageCatcher.empty()) {
-            tile->writeCatchers(std::span(checkpoint.pageCatcher).subspan(tile->begin() - settings_.firstPixel(), tile->count()));
+            tile->writeCatchers(partOf(checkpoint.pageCatcher, *tile));
         }
     }
     if (splats_ && !checkpoint.pageSplats.empty()) {
