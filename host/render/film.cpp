@@ -81,6 +81,9 @@ void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>
 
 void foldCatcher(std::vector<CatcherMoments>& film, std::size_t begin, std::span<const CatcherMoments> page)
 {
+    if (page.empty()) {
+        return;  // no film without catchers gets any
+    }
     film.resize(std::max(film.size(), begin + page.size()));
     for (std::size_t i = 0; i < page.size(); ++i) {
         film[begin + i] = foldMoments(film[begin + i], page[i]);

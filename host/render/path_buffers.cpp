@@ -79,7 +79,7 @@ std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDes
 {
     const std::uint32_t most = maxPathCapacity(settings, device), least = kBlockSamples * (settings.catcher ? 2 : 1);
     if (settings.pathCapacity) {
-        return std::min(std::max(*settings.pathCapacity, least), most);
+        return std::min(settings.catcher ? std::max(*settings.pathCapacity, least) : *settings.pathCapacity, most);
     }
     const auto ofMemory = static_cast<std::uint32_t>(std::min<std::uint64_t>(device.memory / kPathPart / kPathBytes, most));
     return std::max(least, std::bit_floor(std::min(rulesOf(device.deviceClass).pathCapacity, ofMemory)));
