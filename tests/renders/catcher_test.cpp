@@ -229,6 +229,9 @@ TEST(Catcher, ItsFilmHasThePictureOfTheWhole)
     settings.catcher = true;
     Film film = renderScene(scene, settings);
     EXPECT_EQ(film.catcher.size(), film.pixels.size());
+    settings.tilePixels = 100;
+    settings.pathCapacity = 1U << 12U;
+    EXPECT_TRUE(sameBits(film, renderScene(scene, settings))) << "of several tiles, in short passes";
     film.catcher.clear();
     EXPECT_TRUE(sameBits(plain, film));
     EXPECT_FALSE(catches(flattened(litByLamp(Object::Ball).scene()), [] {
