@@ -45,6 +45,15 @@ void refuseTooLarge(const DeviceDescription& device, const std::string& name, Bu
 
 }  // namespace
 
+void refuseIfOutOfMemory(VkResult result, const std::string& name, std::uint64_t bytes, const DeviceDescription& device)
+{
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+        throw DeviceError(MessageId::OutOfMemory,
+                          {"The ", part::place(name), " need ", part::value(megabytes(bytes)), ", but device \"", device.name,
+                           "\" has no more memory (of ", part::expected(megabytes(device.memory)), ")."});
+    }
+}
+
 Buffer::Buffer(Device& device, const std::string& name, BufferKind kind, std::uint64_t size)
     : device_(&device),
       kind_(kind),
@@ -83,11 +92,7 @@ void Buffer::allocate(const std::string& name)
     allocation.memoryTypeIndex = device_->findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, shared, &have);
     const bool mappable = device_->mapsShared() && (have & shared) == shared;
     const VkResult result = memory_.allocate(allocation);
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        throw DeviceError(MessageId::OutOfMemory, {"The ", part::place(name), " need ", part::value(megabytes(needs.size)),
-                                                   ", but device \"", device_->description().name, "\" has no more memory (of ",
-                                                   part::expected(megabytes(device_->description().memory)), ")."});
-    }
+    refuseIfOutOfMemory(result, name, needs.size, device_->description());
     if (result == VK_ERROR_TOO_MANY_OBJECTS) {
         throw DeviceError(MessageId::DeviceLimit,
                           {"The ", part::place(name), " need one more allocation of memory than device \"", device_->description().name,

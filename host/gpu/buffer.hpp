@@ -9,6 +9,9 @@
 
 namespace glim {
 
+// Throws DeviceError that says how much what is named asks for, if the device or its driver has no more memory.
+void refuseIfOutOfMemory(VkResult result, const std::string& name, std::uint64_t bytes, const DeviceDescription& device);
+
 enum class BufferKind {
     Storage,   // read and written by kernels; also an indirect dispatch's arguments
     Texel,     // read by kernels as 16-byte texels (uvec4)

@@ -1,5 +1,7 @@
 #include "host/gpu/reused.hpp"
 
+#include "host/gpu/buffer.hpp"
+
 #include <utility>
 
 namespace glim {
@@ -45,7 +47,9 @@ HostBuffer::HostBuffer(const Device& device, std::uint64_t size)
     allocation.memoryTypeIndex =
         device.findMemoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                               VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &have);
-    check(vkAllocateMemory(device.handle(), &allocation, nullptr, memory_.receive()), "allocate a staging buffer");
+    const VkResult result = vkAllocateMemory(device.handle(), &allocation, nullptr, memory_.receive());
+    refuseIfOutOfMemory(result, "copies to and from the device", needs.size, device.description());
+    check(result, "allocate a staging buffer");
     check(vkBindBufferMemory(device.handle(), handle_.get(), memory_.get(), 0), "bind a staging buffer");
     check(vkMapMemory(device.handle(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "map a staging buffer");
 }

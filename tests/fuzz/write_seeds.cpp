@@ -237,6 +237,12 @@ void writeFilms(const fs::path& folder)
     fs::create_directories(folder);
     writeFilm(folder / "plain.exr", smallFilm(0, kPageSamples, false));
     writeFilm(folder / "splats.exr", smallFilm(0, kPageSamples, true));
+    Film caught = smallFilm(0, kPageSamples, false);
+    caught.catcher.assign(6, {kPageSamples, 0.5F, glm::vec3(0.25F), glm::vec3(0.5F), glm::vec3(0.1F)});
+    Checkpoint catching = makeCheckpoint(caught).value();
+    catching.pageCatcher = catching.film.catcher;
+    catching.page = catching.film.pixels;
+    writeFilm(folder / "catcher.exr", makeFilm(catching), catching);
     Film apart = smallFilm(0, 64, false);
     apart.sampleRanges.emplace_back(128, 256);
     writeFilm(folder / "apart.exr", apart);
