@@ -13,6 +13,9 @@ set(onlyInCi
     CausticsFilmTest.HasTheSameBitsInBands
     MotionBlurTest.OfCausticsIsTheMeanOfSharpPictures
     MotionBlurTest.FindsTheMediaOfEachTime
+    Catcher.SoItIsWithReflections
+    Catcher.AlphaHasTheErrorItStates
+    CommandLineCatcherTest.FilmsResumeAndMergeToTheBitsOfOneRun
     Lights/MirroredLightTest.*
     Places/DirectLightTest.*
     DirectLightTest.T3ASphereFromWithin
