@@ -106,6 +106,7 @@
     ID(MoreWarnings)                                                      \
     /* Notes */                                                           \
     ID(TextureMemory)                                                     \
+    ID(GroupMemory)                                                       \
     ID(CameraChosen)                                                      \
     ID(ToneChosen)                                                        \
     ID(ExposureChosen)                                                    \

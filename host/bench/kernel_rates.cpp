@@ -36,7 +36,7 @@ std::vector<Variant> variantsOf(const RenderSettings& settings, const FlatScene&
             variants.back().settings.workgroup = workgroup;
         }
     }
-    variants.push_back({"for any scene", settings, kAllFeatures & ~kFeatureCatcher, kMaxStackLevels});
+    variants.push_back({"for any scene", settings, kAllFeatures & ~(kFeatureCatcher | kFeatureLightGroups), kMaxStackLevels});
     if (!missingInCourse(scene.features)) {
         variants.push_back({"Moller-Trumbore", settings, scene.features, scene.stackLevels});
         variants.back().settings.course.intersector = Intersector::MollerTrumbore;

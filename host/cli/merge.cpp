@@ -17,7 +17,7 @@ void addMerge(CommandLine& line)
         "The films must agree in scene, camera, size, seed and settings, and their samples (render --samples) must\n"
         "not overlap. Adjacent ranges of 256 samples, starting at a multiple of 256, give the bits of a single run;\n"
         "other ranges give it up to rounding, and the command says so. Films of some rows (render --rows) must adjoin\n"
-        "and have the same samples.");
+        "and have the same samples. A single film will do, to change its lights by --light.");
     command.onRun([job] {
         const MergedFilm merged = carryOut(*job);
         std::cerr << "Merged " << job->inputs.size() << " films into " << escaped(job->mainFile().string()) << ", samples "
@@ -25,7 +25,7 @@ void addMerge(CommandLine& line)
                   << (merged.exact           ? "bit-identical to a single run."
                       : merged.film.complete ? "equal to a single run up to rounding."
                                              : "some are missing, since a render was stopped early (see the layer count.X).")
-                  << '\n';
+                  << (job->lights.empty() ? "" : " Its lights are changed.") << '\n';
         return ExitCode::Done;
     });
 }

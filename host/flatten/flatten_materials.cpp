@@ -120,7 +120,8 @@ public:
         data.emission = material.emission;
         data.ior = material.transmission > 0.0F ? material.ior : kUnusedIor;
         const bool thin = passesStraight(source) && material.transmission > 0.0F;
-        data.flags = (material.doubleSided ? kDoubleSided : 0U) | (thin ? kThinWall : 0U) | (material.isCatcher ? kCatcher : 0U);
+        data.flags = (material.doubleSided ? kDoubleSided : 0U) | (thin ? kThinWall : 0U) | (material.isCatcher ? kCatcher : 0U) |
+                     material.lightGroup << kLightGroupShift;
         data.type = chooseMaterialType(material);
         if ((textured || colored) && (data.type == kLambert || data.type == kMirror)) {
             data.type = kPrincipled;

@@ -456,8 +456,8 @@ FlatScene flatten(const Scene& scene, const Primitives& primitives, const WideBv
     if (same == Same::Nothing) {
         pushSurfaces(flat, scene, primitives, bvh);
     }
-    flat.features =
-        flat.surfaceFeatures | (hasCatcher(scene) ? kFeatureCatcher : 0U) | (areLightsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
+    flat.features = flat.surfaceFeatures | (hasCatcher(scene) ? kFeatureCatcher : 0U) |
+                    (scene.lightGroups.empty() ? 0U : kFeatureLightGroups) | (areLightsClose(flat, scene) ? kFeatureLargeTriangles : 0U);
     flattenMaterials(flat, scene, findColored(scene));
     for (const MeshInstance& instance : scene.instances) {
         flat.features |= flat.materialFeatures[scene.meshes[instance.mesh].material];

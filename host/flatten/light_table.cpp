@@ -209,7 +209,7 @@ public:
         light.versineOuter = punctual.versineOuter;
         flat_.features |= kFeaturePunctualLights;
         if (punctual.kind == PunctualLight::Kind::Directional) {
-            light.kind = kDirectionalLight;
+            light.kind = kDirectionalLight | punctual.group << kLightGroupShift;
             infinite_.push_back(light);
             irradiances_.push_back(strongestChannel(punctual.intensity));
             return;
@@ -221,6 +221,7 @@ public:
             bounds.axis = punctual.direction;
             bounds.cosEmission = 1.0F - punctual.versineOuter - 1e-6F;
         }
+        light.kind |= punctual.group << kLightGroupShift;
         add({light, bounds}, strongestChannel(punctual.intensity));
     }
 
@@ -241,7 +242,7 @@ public:
         flat_.environmentRotation = {std::cos(environment.rotation), std::sin(environment.rotation)};
         flat_.hidesEnvironment = !environment.background;
         FlatLight light{};
-        light.kind = kEnvironmentLight;
+        light.kind = kEnvironmentLight | environment.group << kLightGroupShift;
         light.intensity = radiance;
         flat_.features |= kFeatureEnvironment;
         flat_.environment = radiance;
@@ -266,7 +267,7 @@ public:
         }
         for (std::size_t i = 0; i < infinite_.size(); ++i) {
             infinite_[i].probability = static_cast<float>(irradiances_[i] / sum);
-            if (infinite_[i].kind == kEnvironmentLight) {
+            if ((infinite_[i].kind & kLightKindMask) == kEnvironmentLight) {
                 flat_.environmentLight = static_cast<std::uint32_t>(flat_.lights.size());
             }
             flat_.lights.push_back(infinite_[i]);
@@ -313,7 +314,8 @@ private:
         const Material& material = scene_.materials[id];
         const bool uneven = hasEmissiveImage(material) || material.alphaMode != AlphaMode::Opaque || material.clearcoat > 0.0F;
         FlatLight light{};
-        light.kind = (material.doubleSided ? kDoubleSidedLight : 0U) | (uneven ? kUnevenLight : 0U);
+        light.kind =
+            (material.doubleSided ? kDoubleSidedLight : 0U) | (uneven ? kUnevenLight : 0U) | material.lightGroup << kLightGroupShift;
         light.intensity = flat_.materials[id].emission;
         return light;
     }

@@ -3,6 +3,7 @@
 #include "host/job/film_report.hpp"
 #include "host/job/output_file.hpp"
 #include "host/job/output_lock.hpp"
+#include "host/job/parse.hpp"
 #include "host/json.hpp"
 #include "host/render/film_file.hpp"
 
@@ -16,6 +17,8 @@ void addMergeOptions(OptionTable& table, MergeJob& job)
     table.addPaths("films", "A.exr", "Films written by glim render or glim merge, in any order", job.inputs).require();
     table.beginGroup("Output");
     table.addPath("-o,--output", "C.exr", "Merged film, which may replace an input; or a picture", job.output).require();
+    table.addEach("--light", "NAME=FACTOR", "What a light group is multiplied by, a number or R,G,B [1]; repeatable",
+                  [&job](const OptionValue& value) { job.lights.push_back(parseLightWeight(value)); });
     addPictureFiles(table, job.pictures);
     addLook(table, job.look, "the picture", "none");
     table.onFinished([&table, &job] {
@@ -33,6 +36,9 @@ MergedFilm carryOut(const MergeJob& job)
         lock.emplace(*job.output);
     }
     MergedFilm merged = mergeFilms(job.inputs);
+    if (!job.lights.empty()) {
+        merged.film = regroup(merged.film, factorsOf(job.inputs.front(), merged.film, job.lights));
+    }
     if (job.output) {
         writeFilm(*job.output, merged.film);
     }

@@ -3,6 +3,7 @@
 
 #include "host/job/look_options.hpp"
 #include "host/render/merge_films.hpp"
+#include "host/render/regroup.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,7 @@ class Json;
 struct MergeJob {
     std::vector<std::filesystem::path> inputs;
     std::optional<std::filesystem::path> output;  // without one the films are only looked at
+    std::vector<LightWeight> lights;              // of films with light groups
     PictureFiles pictures;
     LookOptions look;
 

@@ -238,6 +238,50 @@ Edit parseEdit(const OptionValue& value)
     return edit;
 }
 
+void parseLightGroup(const OptionValue& value, LightGroupChoice& choice)
+{
+    const std::string text = value.text();
+    if (value.key().empty() && text == "each") {
+        choice.each = true;
+        return;
+    }
+    const std::size_t equals = text.find('=');
+    const bool isMember = !value.key().empty();
+    const LightGroup group{isMember ? value.key() : text.substr(0, equals), isMember ? value.split(',')
+                                                                            : equals == std::string::npos
+                                                                                ? std::vector<std::string>()
+                                                                                : OptionValue(text.substr(equals + 1)).split(',')};
+    const bool isName = !group.name.empty() &&
+                        std::ranges::none_of(group.name, [](unsigned char c) { return c <= ' ' || c == '.' || c == ',' || c == ':'; });
+    const bool areLights = !group.lights.empty() && std::ranges::none_of(group.lights, &std::string::empty);
+    if (!isName || !areLights) {
+        refuseValue("--light-group", text, false,
+                    "each, or a name without spaces, dots, commas and colons and its lights, as in key=Lamp,Bulb*");
+    }
+    const bool isKnown = std::ranges::any_of(choice.groups, [&](const LightGroup& other) { return other.name == group.name; });
+    if (isKnown || group.name == kOtherLights) {
+        refuseValue("--light-group", text, true, isKnown ? "each name once" : "another name, as \"others\" are all lights without a group");
+    }
+    choice.groups.push_back(group);
+}
+
+LightWeight parseLightWeight(const OptionValue& value)
+{
+    const std::string text = value.text();
+    const std::size_t equals = value.key().empty() ? text.find('=') : 0;
+    const std::string name = value.key().empty() ? text.substr(0, equals) : value.key();
+    const std::string rest = value.key().empty() ? text.substr(std::min(equals, text.size() - 1) + 1) : text;
+    LightWeight weight{name};
+    float factor = 0.0F;
+    const bool isNumber = parseNumber(rest, factor);
+    const bool isValid = equals != std::string::npos && !name.empty() && (isNumber || parseTriple(OptionValue(rest), weight.factor));
+    weight.factor = isNumber ? glm::vec3(factor) : weight.factor;
+    if (!isValid || !(weight.factor.r >= 0.0F && weight.factor.g >= 0.0F && weight.factor.b >= 0.0F) || !std::isfinite(factor)) {
+        refuseValue("--light", text, isValid, "a light group and a factor or R,G,B, 0 or more, as in key=0.5");
+    }
+    return weight;
+}
+
 Addition parseAddition(const OptionValue& value)
 {
     constexpr std::size_t kOfPoint = 3, kOfMatrix = 16;

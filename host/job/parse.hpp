@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/job/option_table.hpp"
+#include "host/render/regroup.hpp"
 #include "host/scene/load_gltf.hpp"
 
 #include <glm/glm.hpp>
@@ -44,6 +45,8 @@ std::optional<double> parseFloorHeight(const OptionValue& value);               
 glm::vec3 parseReflectance(const std::string& option, const OptionValue& value);  // "0.8,0.5,0.1"
 glm::vec3 parseRadiance(const OptionValue& value);                                // "1,1,1", >= 0; a file is refused
 Edit parseEdit(const OptionValue& value);                                         // "POINTER=VALUE", or a value whose key is the pointer
+void parseLightGroup(const OptionValue& value, LightGroupChoice& choice);         // "NAME=LIGHT,LIGHT*" or "each"; added to `choice`
+LightWeight parseLightWeight(const OptionValue& value);                           // "NAME=0.5" or "NAME=1,0.5,0", >= 0
 Addition parseAddition(const OptionValue& value);                                 // "FILE", "FILE@x,y,z", or numbers whose key is the file
 std::string describeAddition(const Addition& addition);
 SamplePlace parseSample(const OptionValue& value);                           // "12,40,7"

@@ -34,6 +34,7 @@ struct PictureOptions {
     std::optional<double> pointRadius, lineRadius;  // of all points and lines, metres
     std::optional<SceneFloor> floor;
     std::vector<std::string> catchers;
+    LightGroupChoice lightGroups;
     std::vector<Edit> edits;
     std::vector<Addition> additions;
     MissingTextures missingTextures = MissingTextures::Refuse;

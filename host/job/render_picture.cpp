@@ -23,6 +23,9 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
     RenderSettings settings = settingsFor(options, camera);
     settings.catcher = catches(session.prepared().flat, settings);
     settings.halves = settings.halves && !settings.catcher;
+    if (keepsGroups(session.prepared().flat, settings)) {
+        settings.lightGroups = session.prepared().scene.lightGroups;
+    }
     if (settings.catcher && options.target.denoised) {
         throw InputError(MessageId::Conflict, {part::place("--denoised"), ": films with shadow catchers are not denoised; expected ",
                                                part::expected("a target for the noisy picture"), "."});
@@ -32,6 +35,18 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
     return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings,
             describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),
             camera.projection.crop};
+}
+
+void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame)
+{
+    const RenderSettings& settings = frame.settings;
+    if (!settings.lightGroups.empty()) {
+        const DeviceDescription& device = session.device().description();
+        const std::uint64_t bytes = computeGroupBytes(session.prepared(), settings, device, options.checkpoint.isGiven());
+        say(MessageId::GroupMemory,
+            {counted(settings.lightGroups.size(), "light group"), settings.lightGroups.size() == 1 ? " takes " : " take ",
+             part::value(format("%.3g MiB", static_cast<double>(bytes) / 0x1p20)), " of memory"});
+    }
 }
 
 void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame)

@@ -23,6 +23,8 @@ struct PictureFrame {
 // The session must be posed at the picture's time. Throws InputError for a camera that the scene lacks and for a picture that the device
 // has no memory for.
 PictureFrame framePicture(const SceneSession& session, const RenderJob& options);
+// What the film's light groups take, if it has some.
+void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame);
 
 // Adds what the film's file says besides its samples, so that the film can be made again from it.
 void labelFilm(Film& film, const RenderJob& options, const PictureFrame& frame);

@@ -303,6 +303,9 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
     if (stored && keep(options, *stored)) {
         return ExitCode::Done;
     }
+    if (place_.rendered == 0) {
+        sayGroupMemory(session_, options, frame);
+    }
     Renderer& renderer = session_.begin(frame.camera, frame.settings);
     if (stored && options.checkpoint.resume) {
         resumeFrom(renderer, *std::move(stored), part::file(options.mainFile()));

@@ -11,4 +11,8 @@ namespace glim {
 // InputError if the picture does not fit, with its checkpoints if there are to be any.
 void checkMemory(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device, bool checkpoints = false);
 
+// How much of that is for light groups.
+std::uint64_t computeGroupBytes(const PreparedScene& prepared, const RenderSettings& settings, const DeviceDescription& device,
+                                bool checkpoints);
+
 }  // namespace glim

@@ -7,9 +7,7 @@ namespace glim {
 
 Film makeFilm(Checkpoint checkpoint)
 {
-    foldPage(checkpoint.film, 0, checkpoint.page);
-    foldSplats(checkpoint.film.splats, checkpoint.pageSplats);
-    foldCatcher(checkpoint.film.catcher, 0, checkpoint.pageCatcher);
+    foldMoments(checkpoint.film, checkpoint.page);
     return std::move(checkpoint.film);
 }
 
@@ -27,11 +25,11 @@ std::optional<Checkpoint> makeCheckpoint(Film film)
     checkpoint.progress.sample = checkpoint.progress.lightSample = end;
     checkpoint.film = std::move(film);
     if (end % kPageSamples != 0) {
-        std::swap(checkpoint.page, checkpoint.film.pixels);
-        std::swap(checkpoint.pageSplats, checkpoint.film.splats);
-        std::swap(checkpoint.pageCatcher, checkpoint.film.catcher);
-        checkpoint.film.pixels.resize(checkpoint.page.size());
-        checkpoint.film.catcher.resize(checkpoint.pageCatcher.size());
+        FilmMoments& folded = checkpoint.film;
+        std::swap(checkpoint.page, folded);
+        folded.pixels.resize(checkpoint.page.pixels.size());
+        folded.catcher.resize(checkpoint.page.catcher.size());
+        folded.groups = GroupMoments(checkpoint.page.groups.groups, checkpoint.page.groups.pixelCount());
     }
     return checkpoint;
 }
@@ -46,14 +44,18 @@ std::string computeDigest(const Checkpoint& checkpoint)
         digest.add(std::vector<std::uint32_t>{adaptive.mean, adaptive.roundEnd, adaptive.commonEnd, adaptive.chosenBegin,
                                               adaptive.choosing ? 1U : 0U});
     }
-    for (const auto* moments : {&checkpoint.film.pixels, &checkpoint.page, &checkpoint.common}) {
-        digest.add(*moments);
-    }
-    for (const auto* moments : {&checkpoint.film.splats, &checkpoint.pageSplats, &checkpoint.commonSplats}) {
-        digest.add(*moments);
-    }
-    for (const auto* moments : {&checkpoint.film.catcher, &checkpoint.pageCatcher, &checkpoint.commonCatcher}) {
-        digest.add(*moments);
+    const FilmMoments* parts[] = {&checkpoint.film, &checkpoint.page, &checkpoint.common};
+    const auto add = [&](auto member) {
+        for (const FilmMoments* part : parts) {
+            digest.add(part->*member);
+        }
+    };
+    add(&FilmMoments::pixels);
+    add(&FilmMoments::splats);
+    add(&FilmMoments::catcher);
+    for (const FilmMoments* part : parts) {
+        digest.add(part->groups.values);
+        digest.add(part->splatGroups.values);
     }
     digest.add(adaptive.chosen);
     digest.add(adaptive.blocksLeft);

@@ -10,14 +10,10 @@ namespace glim {
 // A render at the end of a pass.
 struct Checkpoint {
     SampleProgress progress;
-    Film film;                             // what is folded; sample ranges and completeness are those of the whole
-    std::vector<PixelMoments> page;        // finished blocks that are not folded; empty if there are none
-    std::vector<SplatMoments> pageSplats;  // the same of light paths
-    std::vector<CatcherMoments> pageCatcher;
-    // --adaptive neighbours.
-    std::vector<PixelMoments> common;        // the samples that all pixels share, which are in the film too
-    std::vector<SplatMoments> commonSplats;  // that were there with them
-    std::vector<CatcherMoments> commonCatcher;
+    Film film;         // what is folded; sample ranges and completeness are those of the whole
+    FilmMoments page;  // finished blocks that are not folded; what there is none of is empty
+    FilmMoments
+        common;  // of --adaptive neighbours: the samples that all pixels share, and the light paths with them. The film has them too
 };
 
 // The film that it shows.

@@ -2,8 +2,11 @@
 
 #include "host/bvh/parallel_for.hpp"
 #include "host/digest.hpp"
+#include "host/render/settings.hpp"
+#include "shaders/shared/scene_types.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -23,6 +26,15 @@ std::uint32_t jointBlocks(double varianceA, std::uint32_t blocksA, double varian
     return 1 + static_cast<std::uint32_t>(std::lround(std::isfinite(degrees) ? std::clamp(degrees, least, most) : least));
 }
 
+void addMoments(const FilmMoments& film, Digest& digest)
+{
+    digest.add(film.pixels);
+    digest.add(film.splats);
+    digest.add(film.catcher);
+    digest.add(film.groups.values);
+    digest.add(film.splatGroups.values);
+}
+
 }  // namespace
 
 std::string computeDigest(const Film& film)
@@ -38,18 +50,14 @@ std::string computeDigest(const Film& film)
     for (const auto& [begin, end] : film.sampleRanges) {
         digest.add(std::vector<std::uint32_t>{begin, end});
     }
-    digest.add(film.pixels);
-    digest.add(film.splats);
-    digest.add(film.catcher);
+    addMoments(film, digest);
     return digest.finish();
 }
 
 std::string computePixelsDigest(const Film& film)
 {
     Digest digest;
-    digest.add(film.pixels);
-    digest.add(film.splats);
-    digest.add(film.catcher);
+    addMoments(film, digest);
     return digest.finish();
 }
 
@@ -68,26 +76,60 @@ SplatMoments narrowed(const PixelMoments& pixel) { return {pixel.count, pixel.bl
 
 SplatMoments foldMoments(const SplatMoments& a, const SplatMoments& b) { return narrowed(foldMoments(widened(a), widened(b))); }
 
-void foldSplats(std::vector<SplatMoments>& film, const std::vector<SplatMoments>& page)
+void foldGroups(std::span<glm::vec3> film, std::uint32_t filmSamples, std::span<const glm::vec3> page, std::uint32_t pageSamples,
+                std::uint32_t groups)
 {
-    if (film.empty()) {
-        film = page;
+    if (pageSamples == 0) {
         return;
     }
-    for (std::size_t i = 0; i < page.size(); ++i) {
-        film[i] = foldMoments(film[i], page[i]);
+    if (filmSamples == 0) {
+        std::ranges::copy(page, film.begin());
+        return;
+    }
+    const auto before = static_cast<float>(filmSamples);
+    const float share = static_cast<float>(pageSamples) / static_cast<float>(filmSamples + pageSamples);
+    std::array<glm::vec3, kMaxLightGroups> deltas;
+    for (std::uint32_t g = 0; g < groups; ++g) {
+        deltas[g] = page[g] - film[g];
+        film[g] = foldMean(film[g], deltas[g], share);
+    }
+    std::size_t pair = groups;
+    for (std::uint32_t g = 0; g < groups; ++g) {
+        for (std::uint32_t other = g; other < groups; ++other, ++pair) {
+            film[pair] = foldProducts(film[pair], page[pair], deltas[g], deltas[other], before, share);
+        }
     }
 }
 
-void foldCatcher(std::vector<CatcherMoments>& film, std::size_t begin, std::span<const CatcherMoments> page)
+void foldSplats(FilmMoments& film, const FilmMoments& page)
 {
-    if (page.empty()) {
-        return;  // no film without catchers gets any
+    if (film.splats.empty()) {
+        film.splats = page.splats;
+        film.splatGroups = page.splatGroups;
+        return;
     }
-    film.resize(std::max(film.size(), begin + page.size()));
-    for (std::size_t i = 0; i < page.size(); ++i) {
-        film[begin + i] = foldMoments(film[begin + i], page[i]);
+    for (std::size_t i = 0; i < page.splatGroups.pixelCount(); ++i) {
+        foldGroups(film.splatGroups.of(i), film.splats[i].count, page.splatGroups.of(i), page.splats[i].count, page.splatGroups.groups);
     }
+    for (std::size_t i = 0; i < page.splats.size(); ++i) {
+        film.splats[i] = foldMoments(film.splats[i], page.splats[i]);
+    }
+}
+
+void foldMoments(FilmMoments& film, const FilmMoments& page)
+{
+    foldPage(film, 0, {page.pixels, page.catcher, page.groups.values});
+    foldSplats(film, page);
+}
+
+std::vector<std::string> getLightGroups(const Film& film)
+{
+    std::istringstream text(findSetting(film.identity.settings, "light-groups"));
+    std::vector<std::string> names;
+    for (std::string name; std::getline(text, name, ',');) {
+        names.push_back(name);
+    }
+    return names;
 }
 
 bool hasOneArithmetic(const Film& film) { return film.arithmetic.find(' ') == std::string::npos; }
@@ -102,12 +144,24 @@ void addArithmetic(Film& film, const std::string& arithmetic)
     }
 }
 
-void foldPage(Film& film, std::size_t begin, std::span<const PixelMoments> page)
+void foldPage(FilmMoments& film, std::size_t begin, const PageView& page)
 {
     constexpr std::size_t kPart = 1U << 13U;  // large enough to be worth a thread, 0.2 ms
-    parallelFor((page.size() + kPart - 1) / kPart, std::thread::hardware_concurrency(), [&](std::size_t part) {
-        for (std::size_t i = part * kPart; i < std::min(page.size(), (part + 1) * kPart); ++i) {
-            film.pixels[begin + i] = foldMoments(film.pixels[begin + i], page[i]);
+    if (!page.catcher.empty()) {
+        film.catcher.resize(std::max(film.catcher.size(), begin + page.catcher.size()));  // of a damaged file
+    }
+    const std::size_t moments = page.groups.empty() ? 0 : momentsOfGroups(film.groups.groups);
+    parallelFor((page.pixels.size() + kPart - 1) / kPart, std::thread::hardware_concurrency(), [&](std::size_t part) {
+        for (std::size_t i = part * kPart; i < std::min(page.pixels.size(), (part + 1) * kPart); ++i) {
+            PixelMoments& pixel = film.pixels[begin + i];
+            if (moments > 0) {
+                foldGroups(film.groups.of(begin + i), pixel.count, page.groups.subspan(i * moments, moments), page.pixels[i].count,
+                           film.groups.groups);
+            }
+            if (!page.catcher.empty()) {
+                film.catcher[begin + i] = foldMoments(film.catcher[begin + i], page.catcher[i]);
+            }
+            pixel = foldMoments(pixel, page.pixels[i]);
         }
     });
 }
@@ -146,6 +200,27 @@ std::vector<PixelMoments> shownPixels(const Film& film)
         pixels[i] = shownPixel(film, i);
     }
     return pixels;
+}
+
+glm::vec3 shownOfGroup(const Film& film, std::size_t pixel, std::size_t group)
+{
+    const glm::vec3 camera = film.groups.of(pixel)[group];
+    return film.splatGroups.isEmpty() ? camera : camera + film.splatGroups.of(pixel)[group];
+}
+
+glm::vec3 computeGroupCovariance(const Film& film, std::size_t pixel, std::size_t group, std::size_t other)
+{
+    const std::size_t first = std::min(group, other), second = std::max(group, other), groups = film.groups.groups;
+    const std::size_t pair = groups + first * groups - first * (first + 1) / 2 + second;
+    PixelMoments camera = film.pixels[pixel];
+    camera.squares = film.groups.of(pixel)[pair];
+    glm::vec3 covariance = computeVarianceOfMean(camera);
+    if (!film.splatGroups.isEmpty()) {
+        PixelMoments light = widened(film.splats[pixel]);
+        light.squares = film.splatGroups.of(pixel)[pair];
+        covariance += computeVarianceOfMean(light);
+    }
+    return covariance;
 }
 
 }  // namespace glim

@@ -19,10 +19,10 @@ FilmAccumulator::FilmAccumulator(RenderResources& resources, const RenderSetting
 void FilmAccumulator::makeTiles()
 {
     tiles_.clear();
-    snapshot_.emplace(resources_.device, std::min(settings_.tilePixels, settings_.pixelCount()) * sizeof(PixelMoments));
+    snapshot_.emplace(resources_.device, std::min(settings_.tileSize(), settings_.pixelCount()) * sizeof(PixelMoments));
     const std::uint32_t end = settings_.firstPixel() + settings_.pixelCount();
-    for (std::uint32_t first = settings_.firstPixel(); first < end; first += settings_.tilePixels) {
-        tiles_.push_back(resources_.makeTile(first, std::min(settings_.tilePixels, end - first)));
+    for (std::uint32_t first = settings_.firstPixel(); first < end; first += settings_.tileSize()) {
+        tiles_.push_back(resources_.makeTile(first, std::min(settings_.tileSize(), end - first)));
     }
 }
 
@@ -47,16 +47,24 @@ void FilmAccumulator::restart(const RenderSettings& settings, Film film)
 void FilmAccumulator::begin(Film film)
 {
     film_ = std::move(film);
-    film_.pixels.assign(settings_.pixelCount(), PixelMoments{});
-    film_.catcher.assign(settings_.catcher ? settings_.pixelCount() : 0, CatcherMoments{});
+    static_cast<FilmMoments&>(film_) = emptyMoments();
     common_ = isNeighbours(settings_.adaptive) ? film_ : Film{};
     halves_.reset();
     keepsHalves_ = settings_.halves && !settings_.halvesLate;
     if (splatScale_) {
         splats_.reset();  // so that no two are on the device
-        splats_.emplace(resources_.makeSplatBuffer(settings_), settings_.pixelCount(), *splatScale_);
+        splats_.emplace(resources_.makeSplatBuffer(settings_), settings_, *splatScale_);
     }
     foldVersion_ = 0;
+}
+
+FilmMoments FilmAccumulator::emptyMoments() const
+{
+    FilmMoments moments;
+    moments.pixels.resize(settings_.pixelCount());
+    moments.catcher.resize(settings_.catcher ? settings_.pixelCount() : 0);
+    moments.groups = GroupMoments(settings_.groupCount(), settings_.pixelCount());
+    return moments;
 }
 
 // Display keeps folded pages of one accumulator, and would take those of another for them.
@@ -94,19 +102,18 @@ std::vector<std::uint32_t> FilmAccumulator::testPixels(std::uint32_t samples)
     return chosen;
 }
 
-void FilmAccumulator::foldPages(const std::vector<Film*>& films, const std::vector<std::unique_ptr<Tile>>& tiles)
+void FilmAccumulator::foldPages(const std::vector<FilmMoments*>& films, const std::vector<std::unique_ptr<Tile>>& tiles)
 {
     for (const auto& tile : tiles) {
         tracer_.closeBlocks(*tile);
         finishFold();  // the tile before this one, or the page before this one
         const std::span<const PixelMoments> pages = tile->takePages(*snapshot_);
-        folding_ =
-            std::async(std::launch::async, [films, pages, catchers = tile->takeCatchers(), begin = tile->begin() - settings_.firstPixel()] {
-                for (Film* film : films) {
-                    foldPage(*film, begin, pages);
-                    foldCatcher(film->catcher, begin, catchers);
-                }
-            });
+        folding_ = std::async(std::launch::async, [films, pages, catchers = tile->takeCatchers(), groups = tile->takeGroups(),
+                                                   begin = tile->begin() - settings_.firstPixel()] {
+            for (FilmMoments* film : films) {
+                foldPage(*film, begin, {pages, catchers, groups});
+            }
+        });
     }
 }
 
@@ -121,7 +128,7 @@ void FilmAccumulator::fold()
 {
     foldPages({&film_}, tiles_);
     if (splats_) {
-        splats_->foldInto(film_.splats);
+        splats_->foldInto(film_);
     }
     renewVersion();
 }
@@ -130,17 +137,17 @@ void FilmAccumulator::foldCommon()
 {
     foldPages({&film_, &common_}, tiles_);
     if (splats_) {
-        splats_->foldInto(film_.splats);
+        splats_->foldInto(film_);
     }
     common_.splats = film_.splats;
+    common_.splatGroups = film_.splatGroups;
     renewVersion();
 }
 
 // What the device and the open block of light paths have, which is not folded yet.
-Film FilmAccumulator::pageSoFar()
+FilmMoments FilmAccumulator::pageSoFar()
 {
-    Film page;
-    page.pixels.resize(settings_.pixelCount());
+    FilmMoments page = emptyMoments();
     std::vector<std::unique_ptr<Tile>> copies;
     for (const auto& tile : tiles_) {
         copies.push_back(resources_.makeTile(tile->begin(), tile->count()));
@@ -149,7 +156,7 @@ Film FilmAccumulator::pageSoFar()
     foldPages({&page}, copies);
     finishFold();
     if (splats_) {
-        page.splats = splats_->pageSoFar();
+        foldSplats(page, splats_->pageSoFar());
     }
     return page;
 }
@@ -168,16 +175,13 @@ void FilmAccumulator::takeHalves(std::uint32_t sample)
 Film FilmAccumulator::sum()
 {
     Film film = folded();
-    const Film page = pageSoFar();
-    foldPage(film, 0, page.pixels);
-    foldSplats(film.splats, page.splats);
-    foldCatcher(film.catcher, 0, page.catcher);
+    foldMoments(film, pageSoFar());
     return film;
 }
 
 PixelMoments FilmAccumulator::sum(std::uint32_t pixel)
 {
-    const Tile& tile = *tiles_[pixel / settings_.tilePixels];
+    const Tile& tile = *tiles_[pixel / settings_.tileSize()];
     const std::unique_ptr<Tile> copy = resources_.makeTile(pixel, 1);
     copy->copySamples(tile, pixel - tile.begin());
     tracer_.closeBlocks(*copy);
@@ -193,8 +197,7 @@ Film FilmAccumulator::takeFilm()
 
 std::vector<PixelMoments> FilmAccumulator::takePages()
 {
-    Film page;
-    page.pixels.resize(settings_.pixelCount());
+    FilmMoments page = emptyMoments();
     foldPages({&page}, tiles_);
     finishFold();
     return std::move(page.pixels);
@@ -204,27 +207,24 @@ Checkpoint FilmAccumulator::checkpoint() const
 {
     Checkpoint checkpoint;
     checkpoint.film = folded();
-    checkpoint.page.reserve(settings_.pixelCount());
+    FilmMoments& page = checkpoint.page;
+    page.groups = GroupMoments(settings_.groupCount(), 0);
+    const auto append = [](auto& pages, const auto& more) { pages.insert(pages.end(), more.begin(), more.end()); };
     for (const auto& tile : tiles_) {
-        const std::vector<PixelMoments> pages = tile->readPages();
-        checkpoint.page.insert(checkpoint.page.end(), pages.begin(), pages.end());
-        const std::vector<CatcherMoments> catchers = tile->readCatchers();
-        checkpoint.pageCatcher.insert(checkpoint.pageCatcher.end(), catchers.begin(), catchers.end());
+        append(page.pixels, tile->readPages());
+        append(page.catcher, tile->readCatchers());
+        append(page.groups.values, tile->readGroups());
     }
-    if (splats_) {
-        checkpoint.pageSplats = splats_->page();
-    }
-    const auto clearIfEmpty = [](auto& moments) {
-        if (std::ranges::all_of(moments, [](const auto& pixel) { return pixel.count == 0; })) {
-            moments.clear();
-        }
+    const auto isEmpty = [](const auto& moments) {
+        return std::ranges::all_of(moments, [](const auto& pixel) { return pixel.count == 0; });
     };
-    clearIfEmpty(checkpoint.page);
-    clearIfEmpty(checkpoint.pageSplats);
-    clearIfEmpty(checkpoint.pageCatcher);
-    checkpoint.common = common_.pixels;
-    checkpoint.commonSplats = common_.splats;
-    checkpoint.commonCatcher = common_.catcher;
+    if (isEmpty(page.pixels)) {
+        page = {};
+    }
+    if (splats_ && !isEmpty(splats_->page().splats)) {
+        foldSplats(page, splats_->page());
+    }
+    checkpoint.common = common_;
     return checkpoint;
 }
 
@@ -235,23 +235,24 @@ void FilmAccumulator::resume(Checkpoint checkpoint)
     film_.identity = fresh.identity;  // without what a film's file says of its camera
     film_.device += film_.device.find(fresh.device) == std::string::npos ? "; " + fresh.device : "";
     addArithmetic(film_, fresh.arithmetic);
-    const auto partOf = [this](const auto& page, const Tile& tile) {
-        return std::span(page).subspan(tile.begin() - settings_.firstPixel(), tile.count());
-    };
+    const std::size_t perPixel = momentsOfGroups(settings_.groupCount());
     for (const auto& tile : tiles_) {
-        if (!checkpoint.page.empty()) {
-            tile->writePages(partOf(checkpoint.page, *tile));
+        const std::size_t begin = tile->begin() - settings_.firstPixel(), count = tile->count();
+        const FilmMoments& page = checkpoint.page;
+        if (!page.pixels.empty()) {
+            tile->writePages(std::span(page.pixels).subspan(begin, count));
         }
-        if (!checkpoint.pageCatcher.empty()) {
-            tile->writeCatchers(partOf(checkpoint.pageCatcher, *tile));
+        if (!page.catcher.empty()) {
+            tile->writeCatchers(std::span(page.catcher).subspan(begin, count));
+        }
+        if (!page.groups.isEmpty()) {
+            tile->writeGroups(std::span(page.groups.values).subspan(begin * perPixel, count * perPixel));
         }
     }
-    if (splats_ && !checkpoint.pageSplats.empty()) {
-        splats_->setPage(std::move(checkpoint.pageSplats));
+    if (splats_ && !checkpoint.page.splats.empty()) {
+        splats_->setPage(std::move(checkpoint.page));
     }
-    common_.pixels = std::move(checkpoint.common);
-    common_.splats = std::move(checkpoint.commonSplats);
-    common_.catcher = std::move(checkpoint.commonCatcher);
+    static_cast<FilmMoments&>(common_) = std::move(checkpoint.common);
     renewVersion();
 }
 

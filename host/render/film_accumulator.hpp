@@ -69,9 +69,10 @@ private:
     void makeTiles();
     void begin(Film film);
     // Into each of the films, which stay until finishFold() has returned.
-    void foldPages(const std::vector<Film*>& films, const std::vector<std::unique_ptr<Tile>>& tiles);
+    void foldPages(const std::vector<FilmMoments*>& films, const std::vector<std::unique_ptr<Tile>>& tiles);
     void finishFold() const;
-    Film pageSoFar();
+    FilmMoments emptyMoments() const;
+    FilmMoments pageSoFar();
     void renewVersion();
 
     RenderResources& resources_;

@@ -2,7 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
-#include "host/render/composite.hpp"
+#include "host/render/film_layers.hpp"
 #include "host/render/film_place.hpp"
 #include "host/text.hpp"
 #include "version.h"
@@ -34,199 +34,9 @@ constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenE
 constexpr const char* kBackground = "glim:background";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 
-// Consecutive 32-bit members of PixelMoments or SplatMoments, one letter each.
-struct Layer {
-    const char* prefix;
-    const char* letters;
-    std::size_t offset;
-};
-
-static_assert(std::is_standard_layout_v<PixelMoments> && sizeof(PixelMoments) == 17 * sizeof(float));
-
-constexpr Layer kFloatLayers[] = {
-    {"", "A", offsetof(PixelMoments, alpha)},           {"squares.", "RGB", offsetof(PixelMoments, squares)},
-    {"albedo.", "RGB", offsetof(PixelMoments, albedo)}, {"normal.", "XYZ", offsetof(PixelMoments, normal)},
-    {"depth.", "Z", offsetof(PixelMoments, depth)},     {"clamped.", "X", offsetof(PixelMoments, clamped)},
-};
-constexpr Layer kCountLayers[] = {
-    {"count.", "X", offsetof(PixelMoments, count)},
-    {"blocks.", "X", offsetof(PixelMoments, blocks)},
-};
-constexpr Layer kMeanLayers[] = {{"", "RGB", offsetof(PixelMoments, mean)}};
-constexpr Layer kCameraLayers[] = {{"camera.", "RGB", offsetof(PixelMoments, mean)}};  // with splats, instead
-
-static_assert(std::is_standard_layout_v<SplatMoments> && sizeof(SplatMoments) == 9 * sizeof(float));
-
-constexpr Layer kSplatLayers[] = {
-    {"splats.", "RGB", offsetof(SplatMoments, mean)},
-    {"splatSquares.", "RGB", offsetof(SplatMoments, squares)},
-    {"splatClamped.", "X", offsetof(SplatMoments, clamped)},
-};
-constexpr Layer kSplatCountLayers[] = {
-    {"splatCount.", "X", offsetof(SplatMoments, count)},
-    {"splatBlocks.", "X", offsetof(SplatMoments, blocks)},
-};
-
-static_assert(std::is_standard_layout_v<CatcherMoments> && sizeof(CatcherMoments) == 11 * sizeof(float));
-
-constexpr Layer kCatcherLayers[] = {
-    {"catcherShare.", "X", offsetof(CatcherMoments, share)},
-    {"catcherWith.", "RGB", offsetof(CatcherMoments, with)},
-    {"catcherWithout.", "RGB", offsetof(CatcherMoments, without)},
-    {"catcherSquares.", "XYZ", offsetof(CatcherMoments, squares)},
-};
-constexpr Layer kCompositeLayers[] = {
-    {"composite.", "RGB", offsetof(PixelMoments, mean)},
-    {"composite.", "A", offsetof(PixelMoments, alpha)},
-};
-constexpr Layer kCatcherCountLayers[] = {{"catcherCount.", "X", offsetof(CatcherMoments, count)}};
-
-// Calls visit(channel name, offset in the moments) for every channel of the layers.
-template <class Layers, class Visit>
-void forEachChannel(const Layers& layers, const std::string& group, Visit visit)
-{
-    for (const Layer& layer : layers) {
-        for (std::size_t i = 0; layer.letters[i] != '\0'; ++i) {
-            std::string name = group + layer.prefix;
-            name += layer.letters[i];
-            visit(name, layer.offset + i * sizeof(float));
-        }
-    }
-}
-
-template <class Value, class Moments>
-std::vector<Value> planeOf(std::span<const Moments> pixels, std::size_t offset)
-{
-    std::vector<Value> plane(pixels.size());
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        std::memcpy(&plane[i], reinterpret_cast<const std::byte*>(&pixels[i]) + offset, sizeof(Value));
-    }
-    return plane;
-}
-
-template <class Value, class Moments>
-void takePlane(const fs::path& path, const std::map<std::string, std::vector<Value>>& planes, const std::string& name, std::size_t offset,
-               std::vector<Moments>& pixels)
-{
-    const auto plane = planes.find(name);
-    if (plane == planes.end()) {
-        throw InputError(MessageId::FileDamaged,
-                         {part::file(path), ": is not a complete film: it has no channel ", part::place(name), " of the expected type."});
-    }
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        std::memcpy(reinterpret_cast<std::byte*>(&pixels[i]) + offset, &plane->second[i], sizeof(Value));
-    }
-}
-
 bool hasErrors(const Film& film)
 {
     return std::ranges::any_of(film.pixels, [](const PixelMoments& pixel) { return pixel.blocks >= 2; });
-}
-
-// Adds the variance of the mean and, for viewing, its standard error.
-void addErrors(std::span<const PixelMoments> pixels, Image& image)
-{
-    for (int c = 0; c < 3; ++c) {
-        auto &variances = image.channels[std::string("variance.") + "RGB"[c]], &errors = image.channels[std::string("error.") + "RGB"[c]];
-        variances.clear();  // of the rows before
-        errors.clear();
-        for (const PixelMoments& pixel : pixels) {
-            variances.push_back(pixel.blocks >= 2 ? computeVarianceOfMean(pixel)[c] : std::numeric_limits<float>::infinity());
-            errors.push_back(std::sqrt(variances.back()));
-        }
-    }
-}
-
-template <class Layers, class Moments>
-void addLayers(const Layers& layers, std::span<const Moments> pixels, Image& image, const std::string& group = "")
-{
-    forEachChannel(layers, group,
-                   [&](const std::string& name, std::size_t offset) { image.channels[name] = planeOf<float>(pixels, offset); });
-}
-
-template <class Layers, class Moments>
-void addCounts(const Layers& layers, std::span<const Moments> pixels, Image& image, const std::string& group = "")
-{
-    forEachChannel(layers, group,
-                   [&](const std::string& name, std::size_t offset) { image.counts[name] = planeOf<std::uint32_t>(pixels, offset); });
-}
-
-template <class Layers, class Moments>
-void takeLayers(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels, const std::string& group = "")
-{
-    forEachChannel(layers, group,
-                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.channels, name, offset, pixels); });
-}
-
-template <class Layers, class Moments>
-void takeCounts(const fs::path& path, const Layers& layers, const Image& image, std::vector<Moments>& pixels, const std::string& group = "")
-{
-    forEachChannel(layers, group,
-                   [&](const std::string& name, std::size_t offset) { takePlane(path, image.counts, name, offset, pixels); });
-}
-
-// A run of pixels.
-struct Run {
-    std::size_t begin, count;
-
-    template <class Value>
-    std::span<const Value> of(const std::vector<Value>& picture) const
-    {
-        return std::span(picture).subspan(begin, count);
-    }
-};
-
-void addSplats(const std::vector<SplatMoments>& splats, const Run& run, Image& image, const std::string& group = "")
-{
-    if (!splats.empty()) {
-        addLayers(kSplatLayers, run.of(splats), image, group);
-        addCounts(kSplatCountLayers, run.of(splats), image, group);
-    }
-}
-
-void addCatcher(const std::vector<CatcherMoments>& catcher, const Run& run, Image& image, const std::string& group = "")
-{
-    if (!catcher.empty()) {
-        addLayers(kCatcherLayers, run.of(catcher), image, group);
-        addCounts(kCatcherCountLayers, run.of(catcher), image, group);
-    }
-}
-
-void addFilm(const Film& film, const Run& run, bool errors, Image& image)
-{
-    std::vector<PixelMoments> shown(run.count), composite(film.catcher.empty() ? 0 : run.count);
-    for (std::size_t i = 0; i < run.count; ++i) {
-        shown[i] = shownPixel(film, run.begin + i);
-    }
-    addLayers(kMeanLayers, std::span<const PixelMoments>(shown), image);
-    addLayers(kFloatLayers, run.of(film.pixels), image);
-    addCounts(kCountLayers, run.of(film.pixels), image);
-    if (!film.splats.empty()) {
-        addLayers(kCameraLayers, run.of(film.pixels), image);
-        addSplats(film.splats, run, image);
-    }
-    addCatcher(film.catcher, run, image);
-    if (!film.catcher.empty()) {
-        for (std::size_t i = 0; i < run.count; ++i) {
-            composite[i] = compositePixel(shown[i], film.catcher[run.begin + i]);
-        }
-        addLayers(kCompositeLayers, std::span<const PixelMoments>(composite), image);
-    }
-    if (errors) {
-        addErrors(shown, image);
-    }
-}
-
-void addGroup(const std::vector<PixelMoments>& pixels, const std::vector<SplatMoments>& splats, const std::vector<CatcherMoments>& catcher,
-              const Run& run, Image& image, const std::string& group)
-{
-    if (!pixels.empty()) {
-        addLayers(kMeanLayers, run.of(pixels), image, group);
-        addLayers(kFloatLayers, run.of(pixels), image, group);
-        addCounts(kCountLayers, run.of(pixels), image, group);
-    }
-    addSplats(splats, run, image, group);
-    addCatcher(catcher, run, image, group);
 }
 
 bool isEmpty(const std::vector<PixelMoments>& pixels)
@@ -246,7 +56,8 @@ constexpr const char *kAll = "all", *kNothing = "nothing", *kApart = "apart";
 const char* placeOfFolded(const Film& film, const Checkpoint& checkpoint)
 {
     const bool same = areSame(film.pixels, checkpoint.film.pixels) && areSame(film.splats, checkpoint.film.splats) &&
-                      areSame(film.catcher, checkpoint.film.catcher);
+                      areSame(film.catcher, checkpoint.film.catcher) && areSame(film.groups.values, checkpoint.film.groups.values) &&
+                      areSame(film.splatGroups.values, checkpoint.film.splatGroups.values);
     return same ? kAll : isEmpty(checkpoint.film.pixels) ? kNothing : kApart;
 }
 
@@ -264,11 +75,12 @@ std::string progressText(const Checkpoint& checkpoint, const std::string& folded
 
 void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& run, Image& image)
 {
+    const std::vector<std::string> groups = getLightGroups(checkpoint.film);
     if (folded == kApart) {
-        addGroup(checkpoint.film.pixels, checkpoint.film.splats, checkpoint.film.catcher, run, image, "folded.");
+        addMoments(checkpoint.film, groups, run, image, "folded.");
     }
-    addGroup(checkpoint.page, checkpoint.pageSplats, checkpoint.pageCatcher, run, image, "page.");
-    addGroup(checkpoint.common, checkpoint.commonSplats, checkpoint.commonCatcher, run, image, "common.");
+    addMoments(checkpoint.page, groups, run, image, "page.");
+    addMoments(checkpoint.common, groups, run, image, "common.");
     if (const auto& adaptive = checkpoint.progress.adaptive) {
         const auto copy = [&run](const std::vector<std::uint32_t>& counts) {
             const std::span<const std::uint32_t> part = run.of(counts);
@@ -449,53 +261,10 @@ Film filmOfHeader(const fs::path& path, const Image& image)
     return film;
 }
 
-void takeSplats(const fs::path& path, const Image& image, std::vector<SplatMoments>& splats, const std::string& group = "")
-{
-    takeLayers(path, kSplatLayers, image, splats, group);
-    takeCounts(path, kSplatCountLayers, image, splats, group);
-}
-
-void takeCatcher(const fs::path& path, const Image& image, std::vector<CatcherMoments>& catcher, const std::string& group = "")
-{
-    if (image.channels.contains(group + "catcherWith.R")) {
-        catcher.resize(std::size_t{image.width} * image.height);
-        takeLayers(path, kCatcherLayers, image, catcher, group);
-        takeCounts(path, kCatcherCountLayers, image, catcher, group);
-    }
-}
-
-// Leaves empty what the group does not have.
-void takeGroup(const fs::path& path, const Image& image, std::vector<PixelMoments>& pixels, std::vector<SplatMoments>& splats,
-               std::vector<CatcherMoments>& catcher, const std::string& group)
-{
-    const std::size_t count = std::size_t{image.width} * image.height;
-    if (image.channels.contains(group + "R")) {
-        pixels.resize(count);
-        takeLayers(path, kMeanLayers, image, pixels, group);
-        takeLayers(path, kFloatLayers, image, pixels, group);
-        takeCounts(path, kCountLayers, image, pixels, group);
-    }
-    if (image.channels.contains(group + "splats.R")) {
-        splats.resize(count);
-        takeSplats(path, image, splats, group);
-    }
-    takeCatcher(path, image, catcher, group);
-}
-
 Film filmOfImage(const fs::path& path, const Image& image)
 {
     Film film = filmOfHeader(path, image);
-    film.pixels.resize(std::size_t{film.width} * film.height);
-    takeLayers(path, kFloatLayers, image, film.pixels);
-    takeCounts(path, kCountLayers, image, film.pixels);
-    if (hasSplats(attribute<double>(path, image, "glim:film"))) {
-        film.splats.resize(film.pixels.size());
-        takeLayers(path, kCameraLayers, image, film.pixels);
-        takeSplats(path, image, film.splats);
-    } else {
-        takeLayers(path, kMeanLayers, image, film.pixels);
-    }
-    takeCatcher(path, image, film.catcher);
+    takeFilm(path, image, hasSplats(attribute<double>(path, image, "glim:film")), film);
     if (const std::string digest = textIfPresent(image, "glim:digest"); !digest.empty()) {
         checkDigest(path, "samples", computeDigest(film), digest);
     }
@@ -508,6 +277,7 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
     SampleProgress& progress = checkpoint.progress;
     checkpoint.film = film;
     const std::size_t pixels = checkpoint.film.pixels.size();
+    const std::vector<std::string> groups = getLightGroups(film);
     const auto text = attribute<std::string>(path, image, kProgress);
     std::istringstream stream(text);
     std::string folded;
@@ -521,19 +291,23 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
                          {part::file(path), ": is damaged: its ", part::place("progress"), " is ", part::quoted(text), "."});
     }
     if (folded != kAll) {
-        checkpoint.film.pixels.assign(pixels, PixelMoments{});
-        checkpoint.film.splats.clear();
-        std::ranges::fill(checkpoint.film.catcher, CatcherMoments{});
-        takeGroup(path, image, checkpoint.film.pixels, checkpoint.film.splats, checkpoint.film.catcher, "folded.");
-        takeGroup(path, image, checkpoint.page, checkpoint.pageSplats, checkpoint.pageCatcher, "page.");
+        FilmMoments& moments = checkpoint.film;
+        moments.pixels.assign(pixels, PixelMoments{});
+        moments.splats.clear();
+        std::ranges::fill(moments.catcher, CatcherMoments{});
+        std::ranges::fill(moments.groups.values, glm::vec3(0.0F));
+        moments.splatGroups = {};
+        takeMoments(path, image, groups, moments, "folded.");
+        takeMoments(path, image, groups, checkpoint.page, "page.");
     }
     if (auto& adaptive = progress.adaptive) {
-        takeGroup(path, image, checkpoint.common, checkpoint.commonSplats, checkpoint.commonCatcher, "common.");
-        checkpoint.common.resize(pixels);
+        checkpoint.common.groups = GroupMoments(static_cast<std::uint32_t>(groups.size()), pixels);
+        takeMoments(path, image, groups, checkpoint.common, "common.");
+        checkpoint.common.pixels.resize(pixels);
         adaptive->chosen.resize(pixels);
         adaptive->blocksLeft.resize(pixels);
-        takePlane(path, image.counts, "chosen.X", 0, adaptive->chosen);
-        takePlane(path, image.counts, "blocksLeft.X", 0, adaptive->blocksLeft);
+        takeCounts(path, image, "chosen.X", adaptive->chosen);
+        takeCounts(path, image, "blocksLeft.X", adaptive->blocksLeft);
     }
     checkDigest(path, "checkpoint", computeDigest(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     return checkpoint;
@@ -592,6 +366,8 @@ std::optional<FilmDigests> writeFilm(const fs::path& path, const Film& film, con
 }
 
 Film readFilm(const fs::path& path) { return filmOfImage(path, readSealed(path, readExr)); }
+
+Film readFilm(const fs::path& path, const Image& image) { return filmOfImage(path, image); }
 
 StoredFilm readStoredFilm(const fs::path& path)
 {

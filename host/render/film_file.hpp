@@ -50,6 +50,7 @@ std::optional<FilmDigests> writeFilm(
 
 // Refuses (InputError) files that writeFilm did not write.
 Film readFilm(const std::filesystem::path& path);
+Film readFilm(const std::filesystem::path& path, const Image& image);  // that was read from there
 
 // What a file holds.
 struct StoredFilm {

@@ -64,7 +64,7 @@ std::uint32_t FilmHalves::nextEnd(std::uint32_t sample)
     return (sample / half + 1) * half;
 }
 
-void FilmHalves::take(const Film& page, std::uint32_t sample)
+void FilmHalves::take(const FilmMoments& page, std::uint32_t sample)
 {
     if (sample == taken_) {
         return;
@@ -72,7 +72,7 @@ void FilmHalves::take(const Film& page, std::uint32_t sample)
     Film& half = films_[ordinalOf(taken_) % 2];
     foldRest(half.pixels, page.pixels, before_.pixels);
     foldRest(half.splats, page.splats, before_.splats);
-    before_ = sample % kPageSamples == 0 ? Film() : page;
+    before_ = sample % kPageSamples == 0 ? FilmMoments() : page;
     taken_ = sample;
 }
 

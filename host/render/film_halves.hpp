@@ -23,13 +23,13 @@ public:
     static std::uint32_t nextEnd(std::uint32_t sample);
 
     // `page`: all samples of the page so far, before `sample`. To be called at each nextEnd and at the end of the render.
-    void take(const Film& page, std::uint32_t sample);
+    void take(const FilmMoments& page, std::uint32_t sample);
 
     const std::array<Film, 2>& films() const { return films_; }
 
 private:
     std::array<Film, 2> films_;
-    Film before_;  // the page when it was last taken
+    FilmMoments before_;  // the page when it was last taken
     std::uint32_t taken_;
 };
 

@@ -29,7 +29,10 @@ void writeLayers(const std::filesystem::path& path, const Film& film, ExrCompres
         image.halves.insert(name);
         image.channels[name].push_back(isTooLarge ? std::copysign(kLargestHalf, value) : value);
     };
-    for (const PixelMoments& pixel : pictureOf(film)) {
+    const std::vector<std::string> groups = getLightGroups(film);
+    const std::vector<PixelMoments> picture = pictureOf(film);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const PixelMoments& pixel = picture[i];
         for (int k = 0; k < 3; ++k) {
             add(std::string(1, "RGB"[k]), pixel.mean[k]);
             add(std::string("albedo.") + "RGB"[k], pixel.albedo[k]);
@@ -37,6 +40,11 @@ void writeLayers(const std::filesystem::path& path, const Film& film, ExrCompres
         }
         add("A", pixel.alpha);
         image.channels["depth.Z"].push_back(pixel.depth);
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            for (int k = 0; k < 3; ++k) {
+                add("lights." + groups[g] + '.' + "RGB"[k], shownOfGroup(film, i, g)[k]);
+            }
+        }
     }
     writeExr(path, image);
     if (tooBright > 0) {

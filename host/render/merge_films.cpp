@@ -2,6 +2,7 @@
 
 #include "host/error.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/settings.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
@@ -54,6 +55,13 @@ std::optional<Message> findOtherPicture(const Film& film, const Film& first)
     };
     if (sizeOf(film) != sizeOf(first)) {
         return mismatch("size", sizeOf(film), sizeOf(first));
+    }
+    const auto groupsOf = [](const Film& of) {
+        const std::string groups = findSetting(of.identity.settings, "light-groups");
+        return groups.empty() ? "none" : groups;
+    };
+    if (groupsOf(film) != groupsOf(first)) {  // by which scenes differ too
+        return mismatch("choice of light groups", groupsOf(film), groupsOf(first));
     }
     if (film.identity.scene != first.identity.scene) {
         return mismatch("scene, camera or environment", quoted(film.identity.scene) + " (" + film.sceneFile + ")",
@@ -145,9 +153,12 @@ void appendRows(Film& film, Film below)
     addOrigin(film, below);
     film.height += below.height;
     film.rowsBelow = below.rowsBelow;
-    film.pixels.insert(film.pixels.end(), below.pixels.begin(), below.pixels.end());
-    film.splats.insert(film.splats.end(), below.splats.begin(), below.splats.end());
-    film.catcher.insert(film.catcher.end(), below.catcher.begin(), below.catcher.end());
+    const auto append = [](auto& rows, const auto& more) { rows.insert(rows.end(), more.begin(), more.end()); };
+    append(film.pixels, below.pixels);
+    append(film.splats, below.splats);
+    append(film.catcher, below.catcher);
+    append(film.groups.values, below.groups.values);
+    append(film.splatGroups.values, below.splatGroups.values);
 }
 
 // Whether bands of one run are one run together. Refuses `below` unless it is the next band of `above`, with the same samples.
@@ -241,9 +252,7 @@ MergePlan planMerge(const std::vector<Film>& films, const std::vector<std::strin
 
 void foldFilm(Film& film, const Film& next)
 {
-    foldPage(film, 0, next.pixels);
-    foldSplats(film.splats, next.splats);
-    foldCatcher(film.catcher, 0, next.catcher);
+    foldMoments(film, next);
     foldHeader(film, next);
 }
 

@@ -6,6 +6,15 @@
 #include <cmath>
 
 namespace glim {
+namespace {
+
+// The course's estimators and AOVs add no more than a sample's light to the film.
+bool keepsMore(const RenderSettings& settings)
+{
+    return settings.aov == Aov::Radiance && !usesCourseEstimators(settings) && !isCourse(settings.adaptive);
+}
+
+}  // namespace
 
 PathLengths pathLengths(const RenderSettings& settings)
 {
@@ -26,10 +35,14 @@ bool tracesLight(const FlatScene& scene, const RenderSettings& settings)
            pathLengths(settings).maxBounces >= 2 && !usesCourseEstimators(settings) && !isCourse(settings.adaptive);
 }
 
+bool keepsGroups(const FlatScene& scene, const RenderSettings& settings)
+{
+    return (scene.features & kFeatureLightGroups) != 0 && keepsMore(settings);
+}
+
 bool catches(const FlatScene& scene, const RenderSettings& settings)
 {
-    return (scene.features & kFeatureCatcher) != 0 && settings.aov == Aov::Radiance && !usesCourseEstimators(settings) &&
-           !isCourse(settings.adaptive);
+    return (scene.features & kFeatureCatcher) != 0 && keepsMore(settings);
 }
 
 float splatScale(const FlatScene& scene)
@@ -74,6 +87,7 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.splatScale = splatScale(scene);
     parameters_.timeBegin = time.value_or(0.0F);
     parameters_.timeSpan = time ? 0.0F : 1.0F;
+    parameters_.lightGroups = static_cast<std::uint32_t>(settings.lightGroups.size());
     setCamera(camera, settings.width, settings.height);
 }
 

@@ -18,6 +18,9 @@ PathLengths pathLengths(const RenderSettings& settings);
 // estimators and its own rule of when a pixel is done, both of camera paths.
 bool tracesLight(const FlatScene& scene, const RenderSettings& settings);
 
+// Whether a film can keep the light of the scene's groups of lights (RenderSettings::lightGroups): as above.
+bool keepsGroups(const FlatScene& scene, const RenderSettings& settings);
+
 // Whether a film can keep what the scene's shadow catchers show (RenderSettings::catcher): not of the course's estimators, nor of AOVs.
 bool catches(const FlatScene& scene, const RenderSettings& settings);
 

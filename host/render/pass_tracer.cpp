@@ -231,7 +231,7 @@ void PassTracer::addSplats(const SplatBuffer& splats)
     Recording recording(resources_.device, resources_.statistics);
     for (const auto& band : splats.bands()) {
         Pass pass{};
-        pass.pixelCount = band->count();
+        pass.pixelCount = band->sumCount();
         recording.dispatch(*kernels().addSplats, band->bindings(0), pass, resources_.countGroups(pass.pixelCount));
     }
     recording.finish();

@@ -35,7 +35,11 @@ BufferMap merged(BufferMap a, const BufferMap& b)
 
 constexpr std::uint64_t kPathBytes =
     sizeof(PathRay) + sizeof(PathHit) + sizeof(PathState) + sizeof(PathRadiance) + sizeof(FirstHit) + sizeof(ShadowRay) + 3 * sizeof(uint);
-constexpr std::uint64_t kLargestOfPath = sizeof(ShadowRay);  // in one buffer
+
+std::uint64_t groupBytesOf(std::uint32_t lightGroups) { return lightGroups == 0 ? 0 : sizeof(uint) + lightGroups * sizeof(vec3); }
+
+// In one buffer.
+std::uint64_t largestOfPath(std::uint32_t lightGroups) { return std::max(std::uint64_t{sizeof(ShadowRay)}, groupBytesOf(lightGroups)); }
 
 std::vector<uint> firstSlots(std::size_t count)
 {
@@ -55,6 +59,8 @@ std::vector<BindingSlot> kernelSlots()
     slots.push_back({kBindParameters, BufferKind::Storage});
     slots.push_back({kBindSplats, BufferKind::Storage});
     slots.push_back({kBindCatchers, BufferKind::Storage});
+    slots.push_back({kBindGroupLight, BufferKind::Storage});
+    slots.push_back({kBindGroupSums, BufferKind::Storage});
     slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
 }
@@ -70,8 +76,8 @@ std::vector<Round> makeRounds(std::uint32_t paths, std::uint32_t groups)
 std::uint32_t maxPathCapacity(const RenderSettings& settings, const DeviceDescription& device)
 {
     const std::uint64_t most = std::min({std::uint64_t{device.maxGroups / kGroupsAtOnce * kGroupsAtOnce} * settings.workgroup,
-                                         device.maxTexelElements / (kLargestOfPath / 16),
-                                         std::min(device.maxStorageBuffer, device.maxAllocation) / kLargestOfPath});
+                                         device.maxTexelElements / (sizeof(ShadowRay) / 16),
+                                         std::min(device.maxStorageBuffer, device.maxAllocation) / largestOfPath(settings.groupCount())});
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most, kBlockSamples, 1U << 31U));
 }
 
@@ -81,11 +87,12 @@ std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDes
     if (settings.pathCapacity) {
         return std::min(settings.catcher ? std::max(*settings.pathCapacity, least) : *settings.pathCapacity, most);
     }
-    const auto ofMemory = static_cast<std::uint32_t>(std::min<std::uint64_t>(device.memory / kPathPart / kPathBytes, most));
+    const auto ofMemory = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(device.memory / kPathPart / (kPathBytes + groupBytesOf(settings.groupCount())), most));
     return std::max(least, std::bit_floor(std::min(rulesOf(device.deviceClass).pathCapacity, ofMemory)));
 }
 
-PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
+PathBuffers::PathBuffers(Device& device, std::uint32_t capacity, std::uint32_t lightGroups)
     : rays_(texelArrayOf<PathRay>(device, "rays", capacity)),
       hits_(texelArrayOf<PathHit>(device, "hits", capacity)),
       states_(texelArrayOf<PathState>(device, "path states", capacity)),
@@ -95,6 +102,7 @@ PathBuffers::PathBuffers(Device& device, std::uint32_t capacity)
       queueA_(makeArray<uint>(device, "queue's entries", capacity)),
       queueB_(makeArray<uint>(device, "queue's entries", capacity)),
       shadowQueue_(makeArray<uint>(device, "shadow queue's entries", capacity)),
+      groupLight_(device, "paths' light by groups", BufferKind::Storage, std::max(sizeof(uint), capacity * groupBytesOf(lightGroups))),
       rounds_(makeArray<Round>(device, "rounds", kRounds, BufferKind::Readback)),
       rayCounts_(device, "ray counts", BufferKind::Readback, sizeof(RayCounts)),
       note_(device, "path's note", BufferKind::Readback, sizeof(PathNote)),
@@ -111,9 +119,10 @@ void PathBuffers::clearCounters()
     upload(status_, std::span<const Status>(std::vector<Status>(1)));
 }
 
-std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity)
+std::uint64_t PathBuffers::sizeInBytes(std::uint32_t capacity, std::uint32_t lightGroups)
 {
-    return capacity * kPathBytes + kRounds * sizeof(Round) + sizeof(RayCounts) + sizeof(PathNote) + sizeof(Status);
+    return capacity * (kPathBytes + groupBytesOf(lightGroups)) + kRounds * sizeof(Round) + sizeof(RayCounts) + sizeof(PathNote) +
+           sizeof(Status);
 }
 
 BufferMap PathBuffers::buffers(std::uint32_t parity) const
@@ -127,6 +136,7 @@ BufferMap PathBuffers::buffers(std::uint32_t parity) const
             {kBindActiveQueue, parity == 0 ? &queueA_ : &queueB_},
             {kBindNextQueue, parity == 0 ? &queueB_ : &queueA_},
             {kBindShadowQueue, &shadowQueue_},
+            {kBindGroupLight, &groupLight_},
             {kBindRounds, &rounds_},
             {kBindRayCounts, &rayCounts_},
             {kBindNote, &note_},
@@ -181,11 +191,13 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
       count_(count),
       chooses_(settings.adaptive != Adaptive::Off),
       catches_(settings.catcher),
+      groups_(settings.groupCount()),
       blocks_(makeArray<BlockSums>(device, "film's blocks", count)),
       pages_(makeArray<PixelMoments>(device, "film's pages", count)),
       luminance_(makeArray<LuminanceMoments>(device, "pixels' luminances", isCourse(settings.adaptive) ? count : 1)),
       brightest_(makeArray<BrightestSample>(device, "pixels' brightest samples", settings.suspects > 0 ? count : 1)),
       catchers_(makeArray<CatcherSums>(device, "shadow catchers", settings.catcher ? count : 1)),
+      groupSums_(makeArray<vec3>(device, "film by light groups", std::max(1U, count * sumsOfGroups(groups_)))),
       chosen_(device, "chosen pixels", BufferKind::Storage, sizeof(uint) + (chooses_ ? count : 1) * sizeof(ChosenPixel))
 {
     const auto fixed = merged(constants, {{kBindBlocks, &blocks_},
@@ -193,6 +205,7 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
                                           {kBindLuminance, &luminance_},
                                           {kBindBrightest, &brightest_},
                                           {kBindCatchers, &catchers_},
+                                          {kBindGroupSums, &groupSums_},
                                           {kBindChosenPixels, &chosen_}});
     even_.emplace(layout, merged(fixed, paths.buffers(0)));
     odd_.emplace(layout, merged(fixed, paths.buffers(1)));
@@ -201,7 +214,7 @@ Tile::Tile(Device& device, const KernelLayout& layout, const BufferMap& constant
 
 void Tile::clear()
 {
-    fillWithZero({&blocks_, &pages_, &luminance_, &brightest_, &catchers_});
+    fillWithZero({&blocks_, &pages_, &luminance_, &brightest_, &catchers_, &groupSums_});
     chooseAll();
 }
 
@@ -213,14 +226,18 @@ void Tile::copySamples(const Tile& other, std::uint32_t first)
     if (catches_) {
         commands.copy(other.catchers_.handle(), first * sizeof(CatcherSums), catchers_.handle(), count_ * sizeof(CatcherSums));
     }
+    if (groups_ > 0) {
+        const std::uint64_t bytes = sumsOfGroups(groups_) * sizeof(vec3);
+        commands.copy(other.groupSums_.handle(), first * bytes, groupSums_.handle(), count_ * bytes);
+    }
     commands.submitAndWait();
 }
 
 std::uint64_t Tile::bytesPerPixel(const RenderSettings& settings)
 {
     return sizeof(BlockSums) + sizeof(PixelMoments) + (settings.suspects > 0 ? sizeof(BrightestSample) : 0) +
-           (settings.catcher ? sizeof(CatcherSums) : 0) + (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) +
-           (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
+           (settings.catcher ? sizeof(CatcherSums) : 0) + sumsOfGroups(settings.groupCount()) * sizeof(vec3) +
+           (settings.adaptive != Adaptive::Off ? sizeof(ChosenPixel) : 0) + (isCourse(settings.adaptive) ? sizeof(LuminanceMoments) : 0);
 }
 
 void Tile::fillWithZero(std::initializer_list<const Buffer*> buffers)
@@ -266,6 +283,41 @@ void Tile::writeCatchers(std::span<const CatcherMoments> pages)
     std::vector<CatcherSums> sums(pages.size());
     std::ranges::transform(pages, sums.begin(), [](const CatcherMoments& page) { return CatcherSums{0.0F, vec3(0.0F), vec3(0.0F), page}; });
     upload(catchers_, std::span<const CatcherSums>(sums));
+}
+
+std::vector<glm::vec3> Tile::readGroups() const
+{
+    std::vector<glm::vec3> pages;
+    if (groups_ > 0) {
+        const std::size_t sums = sumsOfGroups(groups_);
+        const std::vector<glm::vec3> all = download<glm::vec3>(groupSums_, count_ * sums);
+        for (std::size_t at = 0; at < all.size(); at += sums) {
+            pages.insert(pages.end(), all.begin() + static_cast<std::ptrdiff_t>(at + groups_),
+                         all.begin() + static_cast<std::ptrdiff_t>(at + sums));
+        }
+    }
+    return pages;
+}
+
+std::vector<glm::vec3> Tile::takeGroups()
+{
+    std::vector<glm::vec3> pages = readGroups();
+    if (groups_ > 0) {
+        fillWithZero({&groupSums_});
+    }
+    return pages;
+}
+
+void Tile::writeGroups(std::span<const glm::vec3> pages)
+{
+    const std::size_t moments = momentsOfGroups(groups_);
+    std::vector<glm::vec3> all;
+    for (std::size_t at = 0; at < pages.size(); at += moments) {
+        all.insert(all.end(), groups_, glm::vec3(0.0F));
+        const std::span<const glm::vec3> pixel = pages.subspan(at, moments);
+        all.insert(all.end(), pixel.begin(), pixel.end());
+    }
+    upload(groupSums_, std::span<const glm::vec3>(all));
 }
 
 void Tile::chooseAll()

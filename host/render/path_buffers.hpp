@@ -39,8 +39,8 @@ std::uint32_t choosePathCapacity(const RenderSettings& settings, const DeviceDes
 
 class PathBuffers {
 public:
-    PathBuffers(Device& device, std::uint32_t capacity);
-    static std::uint64_t sizeInBytes(std::uint32_t capacity);
+    PathBuffers(Device& device, std::uint32_t capacity, std::uint32_t lightGroups = 0);
+    static std::uint64_t sizeInBytes(std::uint32_t capacity, std::uint32_t lightGroups = 0);
     std::uint32_t capacity() const { return static_cast<std::uint32_t>(queueA_.size() / sizeof(uint)); }
 
     // `parity` 1 swaps the active and the next queue.
@@ -72,6 +72,7 @@ public:
 
 private:
     Buffer rays_, hits_, states_, radiance_, firstHits_, shadowRays_, queueA_, queueB_, shadowQueue_;
+    Buffer groupLight_;  // a word and RGB of each light group, for each path
     Buffer rounds_, rayCounts_, note_, status_;
 };
 
@@ -107,6 +108,10 @@ public:
     std::vector<CatcherMoments> takeCatchers();
     std::vector<CatcherMoments> readCatchers() const;
     void writeCatchers(std::span<const CatcherMoments> pages);
+    // The same of light groups (GroupMoments::values).
+    std::vector<glm::vec3> takeGroups();
+    std::vector<glm::vec3> readGroups() const;
+    void writeGroups(std::span<const glm::vec3> pages);
     // Empties everything; all pixels are chosen.
     void clear();
     // Copies the samples of count() pixels of `other`, from its pixel `first` on.
@@ -123,10 +128,12 @@ private:
     Device& device_;
     std::uint32_t begin_, count_;
     bool chooses_, catches_;
+    std::uint32_t groups_;
     Buffer blocks_, pages_;
     Buffer luminance_;  // LuminanceMoments
     Buffer brightest_;  // BrightestSample
     Buffer catchers_;   // CatcherSums
+    Buffer groupSums_;  // sumsOfGroups() of each pixel
     Buffer chosen_;     // the number of chosen pixels, then each ChosenPixel
     std::optional<Bindings> even_, odd_;
 };

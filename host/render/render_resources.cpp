@@ -42,8 +42,9 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
 RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked,
                                  LastingResources lasting)
     : RenderResources(of,
-                      std::make_shared<SharedResources>(SharedResources{DeviceScene(of, scene, std::move(lasting.buffers)),
-                                                                        PathBuffers(of, choosePathCapacity(asked, of.description()))}),
+                      std::make_shared<SharedResources>(
+                          SharedResources{DeviceScene(of, scene, std::move(lasting.buffers)),
+                                          PathBuffers(of, choosePathCapacity(asked, of.description()), asked.groupCount())}),
                       std::move(lasting.kernels), scene, camera, asked)
 {}
 

@@ -130,7 +130,8 @@ RenderSettings settingsOfOne(RenderSettings settings)
     settings.schedule = Schedule::Wavefront;  // the path can be looked at between its kernels
     settings.pathCapacity = kBlockSamples;
     settings.caustics = settings.caustics && !settings.catcher;  // as in the film
-    settings.catcher = false;                                    // the path with all objects is the same
+    settings.lightGroups.clear();
+    settings.catcher = false;  // the path with all objects is the same
     return settings;
 }
 

@@ -58,9 +58,9 @@ std::uint32_t blockEnd(std::uint32_t sample) { return (sample / blockSamples(sam
 
 std::vector<std::uint32_t> countByTile(const std::vector<PixelStart>& pixels, const RenderSettings& settings)
 {
-    std::vector<std::uint32_t> counts((settings.pixelCount() + settings.tilePixels - 1) / settings.tilePixels, 0);
+    std::vector<std::uint32_t> counts((settings.pixelCount() + settings.tileSize() - 1) / settings.tileSize(), 0);
     for (const PixelStart& each : pixels) {
-        ++counts[each.pixel / settings.tilePixels];
+        ++counts[each.pixel / settings.tileSize()];
     }
     return counts;
 }
@@ -136,8 +136,8 @@ SamplePlan::SamplePlan(const RenderSettings& settings, bool tracesLight)
 std::vector<std::uint32_t> SamplePlan::tileCounts() const
 {
     std::vector<std::uint32_t> counts;
-    for (std::uint32_t first = 0; first < settings_.pixelCount(); first += settings_.tilePixels) {
-        counts.push_back(std::min(settings_.tilePixels, settings_.pixelCount() - first));
+    for (std::uint32_t first = 0; first < settings_.pixelCount(); first += settings_.tileSize()) {
+        counts.push_back(std::min(settings_.tileSize(), settings_.pixelCount() - first));
     }
     return counts;
 }

@@ -1,9 +1,12 @@
 #include "host/render/settings.hpp"
 
 #include "host/text.hpp"
+#include "shaders/shared/pixel_moments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace glim {
 
@@ -48,7 +51,19 @@ std::string describeSettings(const RenderSettings& settings)
     if (settings.catcher) {
         text << " catcher=" << (settings.catcherReflections ? "on" : "shadows");
     }
+    if (!settings.lightGroups.empty()) {
+        const char* separator = " light-groups=";
+        for (const std::string& name : settings.lightGroups) {
+            text << std::exchange(separator, ",") << name;
+        }
+    }
     return text.str();
+}
+
+std::uint32_t RenderSettings::tileSize() const
+{
+    const std::uint64_t bytes = sumsOfGroups(groupCount()) * sizeof(glm::vec3);
+    return bytes == 0 ? tilePixels : std::min(tilePixels, static_cast<std::uint32_t>(kMostOfBuffer / bytes));
 }
 
 std::string findSetting(const std::string& description, const std::string& name)

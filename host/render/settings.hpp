@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glim {
 
@@ -73,6 +74,8 @@ struct CourseSettings {
     bool operator==(const CourseSettings&) const = default;
 };
 
+inline constexpr std::uint64_t kMostOfBuffer = 1U << 27U;  // bytes: Vulkan's least limit of a storage buffer
+
 struct RenderSettings {
     std::uint32_t width = 512, height = 512;
     std::optional<std::pair<std::uint32_t, std::uint32_t>> rows;  // the film has only these of the picture, [begin, end)
@@ -91,18 +94,19 @@ struct RenderSettings {
     std::optional<double> seconds;  // stop sampling after this long
 
     // What is recorded besides the picture. This changes no bit of it.
-    std::uint32_t suspects = 0;      // how many of the brightest samples to list; each pixel keeps its own (suspects.hpp)
-    bool catcher = false;            // the film keeps what shadow catchers show; only of scenes with kFeatureCatcher (catches())
-    bool catcherReflections = true;  // they reflect objects and their light
-    bool halves = false;             // the samples in two independent halves too (film_halves.hpp); only with Adaptive::Off
-    bool halvesLate = false;         // the halves begin when Renderer::keepHalves() is called
-    bool notes = false;              // kernels record what happens to the only path of a pass (replay.hpp)
+    std::uint32_t suspects = 0;            // how many of the brightest samples to list; each pixel keeps its own (suspects.hpp)
+    bool catcher = false;                  // the film keeps what shadow catchers show; only of scenes with kFeatureCatcher (catches())
+    bool catcherReflections = true;        // they reflect objects and their light
+    std::vector<std::string> lightGroups;  // the film keeps their light apart; those of the scene, or none (keepsGroups())
+    bool halves = false;                   // the samples in two independent halves too (film_halves.hpp); only with Adaptive::Off
+    bool halvesLate = false;               // the halves begin when Renderer::keepHalves() is called
+    bool notes = false;                    // kernels record what happens to the only path of a pass (replay.hpp)
 
     // How the work is cut: these change no bit of the picture.
     Schedule schedule = Schedule::Auto;
     std::uint32_t workgroup = 64;               // invocations
     std::optional<std::uint32_t> pathCapacity;  // paths in flight, at least kBlockSamples; by default what suits the device
-    std::uint32_t tilePixels = 1U << 20;        // most pixels of a tile: no buffer of the film exceeds 128 MiB, Vulkan's least limit
+    std::uint32_t tilePixels = 1U << 20;        // most pixels of a tile: no buffer of the film exceeds kMostOfBuffer
     std::uint32_t portion = 64;                 // dispatches between two checks whether the pass goes on, unless passes take
     double uncheckedSeconds = 0.05;             // less than this; then two may be in flight
     double passSeconds = 1.0;                   // the most that a pass should take; callers wait for its end
@@ -111,6 +115,8 @@ struct RenderSettings {
     std::uint32_t rowCount() const { return rows ? rows->second - rows->first : height; }
     std::uint32_t firstPixel() const { return rowBegin() * width; }  // of the film, in the picture
     std::uint32_t pixelCount() const { return rowCount() * width; }  // of the film
+    std::uint32_t groupCount() const { return static_cast<std::uint32_t>(lightGroups.size()); }
+    std::uint32_t tileSize() const;  // tilePixels, or fewer with light groups
 
     bool operator==(const RenderSettings&) const = default;
 };

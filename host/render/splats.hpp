@@ -19,17 +19,19 @@ public:
     public:
         // Of pixels [begin, begin + count) of the picture. `constants`: buffers of the scene and the parameters.
         Band(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths, std::uint32_t begin,
-             std::uint32_t count);
+             std::uint32_t count, std::uint32_t groups);
 
         std::uint32_t begin() const { return begin_; }
         std::uint32_t count() const { return count_; }
+        // Sums: of each pixel, and of each light group if there are some.
+        std::uint32_t sumCount() const { return count_ * groups_; }
         const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
-        std::vector<Splat> readBlock() const { return download<Splat>(block_, count_); }
+        std::vector<Splat> readBlock() const { return download<Splat>(block_, sumCount()); }
 
     private:
         friend class SplatBuffer;
 
-        std::uint32_t begin_, count_;
+        std::uint32_t begin_, count_, groups_;
         Buffer pass_, block_;
         std::optional<Bindings> even_, odd_;
     };
@@ -37,7 +39,10 @@ public:
     SplatBuffer(Device& device, const KernelLayout& layout, const BufferMap& constants, const PathBuffers& paths,
                 const RenderSettings& settings);
 
-    static std::uint64_t bytesFor(const RenderSettings& settings) { return 2 * sizeof(Splat) * std::uint64_t{settings.pixelCount()}; }
+    static std::uint64_t bytesFor(const RenderSettings& settings)
+    {
+        return 2 * sizeof(Splat) * std::max(1U, settings.groupCount()) * std::uint64_t{settings.pixelCount()};
+    }
 
     const std::vector<std::unique_ptr<Band>>& bands() const { return bands_; }
     void emptyPass() const;
@@ -53,33 +58,44 @@ private:
 class SplatSums {
 public:
     // `scale`: units per W/(sr m^2), as in RenderParameters.
-    SplatSums(std::unique_ptr<SplatBuffer> block, std::size_t pixels, float scale)
+    SplatSums(std::unique_ptr<SplatBuffer> block, const RenderSettings& settings, float scale)
         : block_(std::move(block)),
           unit_(1.0 / static_cast<double>(scale)),
-          page_(pixels)
-    {}
+          pixels_(settings.pixelCount()),
+          groups_(settings.groupCount())
+    {
+        emptyPage();
+    }
 
     const SplatBuffer& block() const { return *block_; }
     // A pass has added samples [firstSample, firstSample + sampleCount), all of one block, to it. Closes the block at its end.
     void add(std::uint32_t firstSample, std::uint32_t sampleCount);
     // Closes the block, whole or not, and folds the page into `film`.
-    void foldInto(std::vector<SplatMoments>& film);
+    void foldInto(FilmMoments& film);
     // With the open block, which goes on.
-    std::vector<SplatMoments> pageSoFar() const;
+    FilmMoments pageSoFar() const;
     // Without the open block.
-    const std::vector<SplatMoments>& page() const { return page_; }
-    void setPage(std::vector<SplatMoments> page) { page_ = std::move(page); }
+    const FilmMoments& page() const { return page_; }
+    void setPage(FilmMoments page);
 
-    static constexpr std::uint64_t kPixelBytes = sizeof(SplatMoments) + sizeof(Splat);  // on the host
+    // On the host, for each pixel.
+    static std::uint64_t bytesPerPixel(const RenderSettings& settings)
+    {
+        return sizeof(SplatMoments) + momentsOfGroups(settings.groupCount()) * sizeof(glm::vec3) +
+               std::max(1U, settings.groupCount()) * sizeof(Splat);
+    }
 
 private:
-    void foldBlock(std::vector<SplatMoments>& page) const;
+    void foldBlock(FilmMoments& page) const;
     void closeBlock();
+    void emptyPage();
 
     std::unique_ptr<SplatBuffer> block_;
     double unit_;
     std::uint32_t samples_ = 0;  // of the block
-    std::vector<SplatMoments> page_;
+    std::size_t pixels_;
+    std::uint32_t groups_;
+    FilmMoments page_;  // splats alone
 };
 
 }  // namespace glim

@@ -473,6 +473,7 @@ struct SceneFile::Contents {
     std::vector<FilePart> added;
     JoinedMeshes joined, joinedFloor;
     std::optional<Scene> floor;
+    std::optional<std::vector<LightGroup>> lightGroups;     // likewise
     std::optional<double> litShare;                         // of the rest pose, so that all frames of an animation have the same light
     std::vector<std::uint32_t> firstNodes, firstMaterials;  // of each part, in the last scene
 
@@ -613,6 +614,17 @@ void SceneFile::chooseLight(Scene& scene, bool isPosed, Warnings& warnings)
     }
 }
 
+void SceneFile::addLightGroups(Scene& scene)
+{
+    if (options_.lightGroups == LightGroupChoice{}) {
+        return;
+    }
+    if (!contents_->lightGroups) {
+        contents_->lightGroups = chooseLightGroups(path_, scene, options_.lightGroups);
+    }
+    assignLightGroups(scene, *contents_->lightGroups);
+}
+
 void SceneFile::release() { contents_.reset(); }
 
 Scene SceneFile::sceneAt(std::optional<double> seconds, bool blurred)
@@ -625,6 +637,7 @@ Scene SceneFile::sceneAt(std::optional<double> seconds, bool blurred)
     markCatchers(scene);
     checkScene(scene);
     chooseLight(scene, seconds.has_value(), warnings);
+    addLightGroups(scene);
     scene.warnings = warnings.messages();
     return scene;
 }
@@ -637,6 +650,7 @@ void SceneFile::edit(const std::vector<Edit>& edits)
     const auto apply = [this](const std::vector<Edit>& all) {
         contents_->litShare.reset();
         contents_->floor.reset();
+        contents_->lightGroups.reset();
         contents_->main.edit(ownEdits(all, options_.additions));
         for (std::size_t i = 0; i < options_.additions.size(); ++i) {
             contents_->added[i].edit(editsOf(all, options_.additions[i]));

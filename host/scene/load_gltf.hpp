@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/edit.hpp"
+#include "host/scene/light_groups.hpp"
 #include "host/scene/scene.hpp"
 
 #include <filesystem>
@@ -66,6 +67,7 @@ struct LoadOptions {
     bool framed = false;                       // adds it to the file's cameras; it is always there if the file has none
 
     std::optional<SceneFloor> floor;
+    LightGroupChoice lightGroups;       // of which a film keeps the light apart
     std::vector<std::string> catchers;  // names of materials that are shadow catchers, besides those that files mark
 
     std::vector<Edit> edits;          // of the file, one after the other
@@ -110,6 +112,7 @@ private:
     // The floor, under the rest pose.
     Scene addFloor(Scene scene, bool isPosed);
     void markCatchers(Scene& scene) const;
+    void addLightGroups(Scene& scene);
     // The built-in studio, where nothing else would show what is in the scene.
     void chooseLight(Scene& scene, bool isPosed, Warnings& warnings);
     std::string prefixOf(std::size_t part) const;

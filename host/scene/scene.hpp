@@ -51,6 +51,7 @@ struct Material {
     float specular = 1.0F;          // strength of the dielectric's reflection
     glm::vec3 specularColor{1.0F};  // of that reflection at normal incidence; may exceed 1
     glm::vec3 emission{0.0F};       // radiance, W/(sr m^2)
+    std::uint32_t lightGroup = 0;   // of Scene::lightGroups
     bool isDisplay = false;         // it emits to be seen, not to light the scene: without KHR_materials_emissive_strength
     bool doubleSided = false;       // emits from both sides; and rays meet its back faces, as those of what transmits (meetsBackFaces)
     AlphaMode alphaMode = AlphaMode::Opaque;
@@ -157,9 +158,10 @@ struct TextureImage {
 struct Environment {
     glm::vec3 radiance{1.0F};  // of the constant one; of a map what multiplies its texels
     std::shared_ptr<const RadianceMap> map;
-    float rotation = 0.0F;   // of the map about +y, counter-clockwise seen from above, radians
-    bool background = true;  // the camera sees it
-    std::string source;      // the map's file, studio, EXT_lights_image_based or constant
+    float rotation = 0.0F;    // of the map about +y, counter-clockwise seen from above, radians
+    bool background = true;   // the camera sees it
+    std::string source;       // the map's file, studio, EXT_lights_image_based or constant
+    std::uint32_t group = 0;  // of Scene::lightGroups
 };
 
 struct Sphere {
@@ -180,6 +182,7 @@ struct PunctualLight {
     float versineInner = 0.0F;            // 1 - cos; spot: full intensity inside this angle,
     float versineOuter = 1.0F;            // none outside this one
     float range = 0.0F;                   // point, spot: metres beyond which there is no light; 0: no limit
+    std::uint32_t group = 0;              // of Scene::lightGroups
 };
 
 // The default size of a picture follows its camera's aspect ratio up to this, and down to its inverse.
@@ -226,7 +229,8 @@ struct Scene {
     std::vector<Camera> cameras;     // never empty after load_gltf: one is framed where the file has none
     std::optional<Shutter> shutter;  // by which instances and cameras have motions
     std::optional<Environment> environment;
-    std::vector<std::string> variants;  // names in KHR_materials_variants
+    std::vector<std::string> lightGroups;  // their names; empty if the film is to have none (light_groups.hpp)
+    std::vector<std::string> variants;     // names in KHR_materials_variants
     std::vector<Animation> animations;
     std::vector<std::string> extensions;      // that the file uses; getEffect says what becomes of them
     std::size_t skins = 0, morphTargets = 0;  // of the file

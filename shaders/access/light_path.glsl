@@ -151,8 +151,8 @@ LightRay samplePointEmission(FlatLight light, float uTarget, vec2 u)
     return LightRay(PathRay(light.position, kNoPrimitive, w, 0u), light.intensity * (falloff / pdf), light.size);
 }
 
-// The flux includes the light's probability.
-LightRay sampleEmission(SampleId id)
+// The flux includes the light's probability. group: the light's.
+LightRay sampleEmission(SampleId id, out uint group)
 {
     uvec2 which = lightPathPair(id, render.lightPaths, kDimensionEmitter, kSobol);
     vec2 uPoint = unitFloat(lightPathPair(id, render.lightPaths, kDimensionEmission, kSobol));
@@ -160,6 +160,7 @@ LightRay sampleEmission(SampleId id)
     LightChoice choice = chooseCausticLight(which.x);
     FlatLight light = fetchLight(choice.light);
     uint kind = getLightKind(light);
+    group = lightGroupOf(light.kind);
     float uTarget = unitFloat(which.y);
     LightRay from = kNoLightRay;
     if (hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights) && kind <= kSphereLight) {

@@ -144,7 +144,7 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
     float continuation = continuationProbability(throughput, 1.0, state.bounce);
     vertex.ray = spawnRay(si, next.wi);
     vertex.ray.media = mediaOfNextRay(ray.media, si, sampled, next.wi);
-    vertex.state = PathState(throughput / continuation, 0.0, 0.0, 1.0, state.bounce + 1u, 0u);
+    vertex.state = PathState(throughput / continuation, 0.0, 0.0, 1.0, state.bounce + 1u, state.normal);
     bool ends = state.bounce + 1u >= min(render.maxBounces, render.maxPathLength) || (isFirst && !specular);
     vertex.hasNextRay = !ends && any(notEqual(throughput, vec3(0.0))) && u.roulette < continuation;
     return vertex;

@@ -21,20 +21,21 @@ struct Work {
 struct TracedRay {
     AlphaRay alphaRay;
     vec3 contribution;
-    uint pixel;       // of light paths
+    uint receiver;    // as of addLight
     uint pathLength;  // surfaces met between camera and light
 };
 
 uint fetchEntry(uint entry);
 bool takePath(uint entry, out Path path, inout Work work);  // false if it carries nothing
 VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps);
-void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength);
+// receiver: the pixel of a light path's light, the group of a camera path's.
+void addLight(inout Path path, uint receiver, vec3 contribution, uint pathLength);
 void visitMiss(inout Path path);
 bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced);  // false if the path ends
 void endPath(Path path);
 
 // Adds the light, unless surfaces with alpha dim it first: then the ray is `traced` next.
-void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pixel, inout Work work, inout Steps steps,
+void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint receiver, inout Work work, inout Steps steps,
                      inout TracedRay traced)
 {
     bool metAlpha;
@@ -42,10 +43,10 @@ void traceConnection(inout Path path, ShadowRay ray, vec3 contribution, uint pix
     uint pathLength = path.state.bounce + 1u;
     ++work.shadow;
     if (hasFeature(kFeatureAlpha) && clear && metAlpha) {
-        traced = TracedRay(makeAlphaRay(ray, connectionSides(path)), contribution, pixel, pathLength);
+        traced = TracedRay(makeAlphaRay(ray, connectionSides(path)), contribution, receiver, pathLength);
         traced.alphaRay.fromCamera = kSeenByCamera;
     } else if (clear) {
-        addLight(path, pixel, contribution, pathLength);
+        addLight(path, receiver, contribution, pathLength);
     }
 }
 
@@ -67,7 +68,7 @@ bool advance(inout Path path, inout Work work)
         again = false;
         if (hasFeature(kFeatureAlpha) && traced.alphaRay.isShadow) {
             if (isClear(met.weight)) {
-                addLight(path, traced.pixel, traced.contribution * met.weight, traced.pathLength);
+                addLight(path, traced.receiver, traced.contribution * met.weight, traced.pathLength);
             }
         } else {
             ++work.closest;

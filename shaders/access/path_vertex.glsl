@@ -13,9 +13,11 @@
 
 struct VertexResult {
     vec3 emitted;         // emission that the ray itself has hit, times throughput and MIS weight
+    uint emittedGroup;    // of lights
     FirstHit firstHit;    // of the camera's ray
     bool hasShadowRay;
     ShadowRay shadowRay;
+    uint shadowGroup;     // of the light that it goes to
     bool hasNextRay;
     PathRay ray;          // the next one
     PathState state;      // and its state
@@ -40,6 +42,11 @@ vec3 shadeMiss(PathRay ray, PathState state)
     return hasFeature(kFeatureMedia) ? environment * pathTransmittance(ray.media, kInfinity) : environment;
 }
 
+uint environmentGroup()
+{
+    return hasFeature(kFeatureLightGroups) ? lightGroupOf(fetchLight(render.environmentLight).kind) : 0u;
+}
+
 float misWeightOfSample(float lightPdf, float bsdfPdf)
 {
     return lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
@@ -50,11 +57,12 @@ float computeContinuation(BsdfSample s, vec3 throughput, float etaScale, uint bo
     return continuationProbability(throughput, etaScale, bounce);
 }
 
-LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce)
+LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce, out uint group)
 {
     LightContext context = makeLightContext(si, bsdf);
     LightChoice choice = chooseLight(id, context, bounce);
     noteLight(choice.light);
+    group = hasFeature(kFeatureLightGroups) ? lightGroupOf(fetchLight(choice.light).kind) : 0u;
     return sampleChosenLight(id, choice, context, bounce);
 }
 
@@ -85,6 +93,8 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     noteMaterial(si, hit, material, arrivedIn);
     VertexResult result;
     result.emitted = vec3(0.0);
+    result.emittedGroup = lightGroupOf(material.data.flags);
+    result.shadowGroup = 0u;
     if (hasEmissiveSurfaces()) {
         if (hasFeature(kFeatureClearcoat)) {
             material.data.emission *= passedCoat(material.layers.clearcoat, dot(si.ng, wo));
@@ -98,7 +108,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     bool samples = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf);
     LightSample light = kNoLight;
     if (samples) {
-        light = sampleDirectLight(id, si, bsdf, state.bounce);
+        light = sampleDirectLight(id, si, bsdf, state.bounce, result.shadowGroup);
     }
     BounceNumbers u = sampleBounceNumbers(id, state.bounce);
     BsdfPair pair = evalAndSampleBsdf(bsdf, wo, light.wi, u.direction, u.lobe);

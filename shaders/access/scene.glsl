@@ -163,6 +163,12 @@ FlatLight fetchLight(uint light)
                      uintBitsToFloat(d.w), toFloats(e), uintBitsToFloat(e.w));
 }
 
+// Of MaterialData::flags or FlatLight::kind.
+uint lightGroupOf(uint word)
+{
+    return hasFeature(kFeatureLightGroups) ? word >> kLightGroupShift : 0u;
+}
+
 LightNode fetchLightNode(uint node)
 {
     int at = int(node * kLightNodeTexels);

@@ -7,7 +7,7 @@
 #include "pass.glsl"
 #include "status.glsl"
 
-// The picture's pixels from Pass::tileBegin on.
+// The picture's pixels from Pass::tileBegin on; of each light group, if the film has groups.
 layout(set = 0, binding = kBindSplats, scalar) buffer SplatsBuffer { Splat splats[]; };
 
 #if defined(UPDATES_BLOCK_SPLATS)
@@ -28,25 +28,27 @@ const float kMaxUnits = 4611686018427387904.0;  // 2^62
         } \
         if (high != 0u) { \
             uint before = atomicAdd(sum.y, high); \
-            if (before + high < before) { \
+            if (before + high < before || before + high > mostHigh) { \
                 reportSplatOverflow(); \
             } \
         } \
     }
 
-// contribution: to a sample of the picture's pixel. pathLength: surfaces met between camera and light.
-void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength)
+// contribution: to a sample of the picture's pixel. pathLength: surfaces met between camera and light. group: of lights.
+void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength, uint group)
 {
-    uint at = pixel - pass.tileBegin;
-    if (pixel < pass.tileBegin || at >= uint(splats.length())) {
+    uint pixels = uint(splats.length()) / max(render.lightGroups, 1u), at = pixel - pass.tileBegin;
+    if (pixel < pass.tileBegin || at >= pixels) {
         return;
     }
+    at += group * pixels;
     if (!isFinite(contribution)) {
         reportNonFinite(pixel, sampleIndex);
         return;
     }
     ClampedLight light = clampIndirect(contribution, pathLength, render.clampIndirect);
     vec3 units = light.kept * render.splatScale;
+    uint mostHigh = 0xffffffffu / max(render.lightGroups, 1u);  // what all groups have together must fit too
     float removed = light.removed * render.splatScale;
     if (!(max(max(units.r, units.g), max(units.b, removed)) < kMaxUnits)) {
         reportSplatOverflow();

@@ -1,14 +1,16 @@
 // One thread is one pixel of the pass. Adds its finished samples to the block, in the order of their index, and folds each block into the
 // page when the block ends. So the bits do not depend on how the samples were divided into passes. Adds nothing while a path is alive, of
 // this pass or left by the one before.
-// Reads radiance, first hits, rounds. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are
+// Reads radiance, light of groups, first hits, rounds. Updates blocks, pages and, in renders that ask for them, brightest samples; counts samples that are
 // not finite and leaves them out. May say that paths are left.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_RADIANCE
+#define READS_GROUP_LIGHT
 #define READS_FIRST_HITS
 #define UPDATES_ROUNDS
 #define UPDATES_FILM
+#include "access/group_sums.glsl"
 #include "access/paths.glsl"
 #include "access/status.glsl"
 #include "lib/finite.glsl"
@@ -62,6 +64,9 @@ BlockSums addFinished(PassPixel from, uint i, BlockSums sums, inout CatcherSums 
     if (hasFeature(kFeatureCatcher) && first.alpha < 0.0) {
         caught = CatcherSums(caught.share + 1.0, caught.with + path.radiance, caught.without + without.radiance, caught.page);
     }
+    if (hasFeature(kFeatureLightGroups)) {
+        addGroups(from.at, slot);
+    }
     if (kSuspects) {
         keepBrightest(from.at, computeLuminance(path.radiance), from.firstSample + i);
     }
@@ -96,6 +101,9 @@ void addPixel(PassPixel from)
         if (ends) {
             if (hasFeature(kFeatureCatcher)) {
                 caught = foldCatcher(caught, sums.count);
+            }
+            if (hasFeature(kFeatureLightGroups)) {
+                foldGroups(from.at, filmPages[from.at].count, sums.count);
             }
             filmPages[from.at] = foldMoments(filmPages[from.at], computeBlockMoments(sums));
             sums = emptyBlock();

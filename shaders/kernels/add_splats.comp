@@ -1,4 +1,4 @@
-// One thread is one pixel of a band. Adds what light paths have brought in a pass to the block's sums, and empties the pass's. A pass that
+// One thread is one pixel of a band, or one of a light group. Adds what light paths have brought in a pass to the block's sums, and empties the pass's. A pass that
 // was stopped is emptied instead, so that the block has whole samples.
 // Updates splats and the block's sums of them.
 #version 460

@@ -1,14 +1,16 @@
 // One thread is one slot of the pass: a sample of a pixel. Starts its path at the camera. If paths of the pass before are left, the pass
 // has no path.
-// Reads the parameters and, if rays begin in different media, the scene. Writes rays, states, radiance and, to the next queue,
-// all slots. May empty its round.
+// Reads the parameters and, if rays begin in different media, the scene. Writes rays, states, radiance, light of groups and, to
+// the next queue, all slots. May empty its round.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define WRITES_RAYS
 #define WRITES_STATES
 #define WRITES_RADIANCE
+#define WRITES_GROUP_LIGHT
 #define WRITES_NEXT_QUEUE
 #define UPDATES_ROUNDS
+#include "access/light_groups.glsl"
 #include "access/path_time.glsl"
 #include "access/paths.glsl"
 #include "access/start_media.glsl"
@@ -55,6 +57,9 @@ void main()
         float throughput = isSeen ? 1.0 : 0.0;  // nor is the environment seen
         storeState(slot, PathState(vec3(throughput), 0.0, 0.0, 1.0, 0u, 0u));
         storeRadiance(slot, PathRadiance(vec3(0.0), 0.0));
+        if (hasFeature(kFeatureLightGroups)) {
+            clearGroupLight(slot);
+        }
         nextQueue[slot] = slot;
     }
     checkLoopBudget(render.canarySteps);

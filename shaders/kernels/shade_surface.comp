@@ -2,7 +2,7 @@
 // and queues a shadow ray to it, and samples the BSDF with roulette and queues the next ray. One dispatch does both, so that interaction,
 // material and BSDF are made once.
 // A path that has scattered last goes on.
-// Reads the scene, the queue, hits. Updates rays, states, radiance. Writes first hits, shadow rays, the note; appends to the shadow
+// Reads the scene, the queue, hits. Updates rays, states, radiance, light of groups. Writes first hits, shadow rays, the note; appends to the shadow
 // queue and the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,6 +11,7 @@
 #define READS_HITS
 #define UPDATES_STATES
 #define UPDATES_RADIANCE
+#define UPDATES_GROUP_LIGHT
 #define WRITES_FIRST_HITS
 #define WRITES_SHADOW_RAYS
 #define WRITES_SHADOW_QUEUE
@@ -22,13 +23,21 @@
 #include "access/radiance.glsl"
 #include "access/status.glsl"
 
+void addLight(uint slot, uint group, vec3 contribution, uint pathLength)
+{
+    addRadiance(slot, contribution, pathLength);
+    if (hasFeature(kFeatureLightGroups)) {
+        addToGroup(slot, group, contribution, pathLength);
+    }
+}
+
 void visitMiss(uint slot, PathRay ray, PathState state)
 {
     if (bounceOf(state) == 0u) {
         storeFirstHit(slot, makeNoFirstHit());
     }
     if (hasEnvironment()) {
-        addRadiance(slot, shadeMiss(ray, state), bounceOf(state));
+        addLight(slot, environmentGroup(), shadeMiss(ray, state), bounceOf(state));
     }
 }
 
@@ -52,10 +61,13 @@ void visitSurface(uint slot, PathRay ray, PathHit hit, PathState state)
         return;
     }
     if (hasEmissiveSurfaces()) {
-        addRadiance(slot, vertex.emitted, bounceOf(state));
+        addLight(slot, vertex.emittedGroup, vertex.emitted, bounceOf(state));
     }
     if (vertex.hasShadowRay) {
         storeShadowRay(slot, vertex.shadowRay);
+        if (hasFeature(kFeatureLightGroups)) {
+            storeShadowGroup(slot, vertex.shadowGroup);
+        }
         queueShadowRay(slot);
     }
     if (vertex.hasNextRay || (hasFeature(kFeatureScattering) && vertex.hasShadowRay)) {

@@ -58,13 +58,14 @@ bool takePath(uint entry, out Path path, inout Work work)
     if ((entry & kUnbegun) == 0u) {
         path = Path(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot), 0.0);
     } else {
-        LightRay light = sampleEmission(id);
+        uint group;
+        LightRay light = sampleEmission(id, group);
         if (hasFeature(kFeatureLightsInMedia) && any(notEqual(light.flux, vec3(0.0)))) {
             Steps steps = Steps(0u, 0u);
             light.ray.media = mediaAround(light.ray.origin, steps);
             work.steps += steps.nodes + steps.primitives;
         }
-        path = Path(slot, id, light.ray, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, 0u), PathRadiance(light.flux, 0.0), light.range);
+        path = Path(slot, id, light.ray, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, group), PathRadiance(light.flux, 0.0), light.range);
     }
     return any(notEqual(path.light.radiance, vec3(0.0)));
 }
@@ -76,7 +77,7 @@ VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps
 
 void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
 {
-    addSplat(pixel, path.id.index, contribution, pathLength);
+    addSplat(pixel, path.id.index, contribution, pathLength, path.state.normal);
 }
 
 void visitMiss(inout Path path) {}

@@ -1,12 +1,13 @@
 // One thread takes paths of the active queue, one after the other, and traces each to its end. This is the persistent schedule, which
 // replaces trace_closest, shade_surface and trace_shadow. Paths that exceed the kernel's limits go into the next queue unfinished.
-// Reads the scene, the queue. Updates rays, states, radiance, ray counts. Writes first hits; appends to the next queue.
+// Reads the scene, the queue. Updates rays, states, radiance, light of groups, ray counts. Writes first hits; appends to the next queue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_ACTIVE_QUEUE
 #define UPDATES_RAYS
 #define UPDATES_STATES
 #define UPDATES_RADIANCE
+#define UPDATES_GROUP_LIGHT
 #define WRITES_FIRST_HITS
 #define WRITES_NEXT_QUEUE
 #define UPDATES_ROUNDS
@@ -50,8 +51,11 @@ VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps
     return traceThroughAlpha(path.id, rayNumber(path.state), alphaRay, steps);
 }
 
-void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
+void addLight(inout Path path, uint group, vec3 contribution, uint pathLength)
 {
+    if (hasFeature(kFeatureLightGroups)) {
+        addToGroup(path.slot, group, contribution, pathLength);
+    }
     if (isLengthInRange(pathLength)) {
         path.light = addLight(path.light, contribution, pathLength, render.clampIndirect);
     }
@@ -63,7 +67,7 @@ void visitMiss(inout Path path)
         storeFirstHit(path.slot, makeNoFirstHit());
     }
     if (hasEnvironment()) {
-        addLight(path, 0u, shadeMiss(path.ray, path.state), path.state.bounce);
+        addLight(path, environmentGroup(), shadeMiss(path.ray, path.state), path.state.bounce);
     }
 }
 
@@ -78,10 +82,10 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
         return false;
     }
     if (hasEmissiveSurfaces()) {
-        addLight(path, 0u, vertex.emitted, path.state.bounce);
+        addLight(path, vertex.emittedGroup, vertex.emitted, path.state.bounce);
     }
     if (vertex.hasShadowRay) {
-        traceConnection(path, vertex.shadowRay, vertex.shadowRay.contribution, 0u, work, steps, traced);
+        traceConnection(path, vertex.shadowRay, vertex.shadowRay.contribution, vertex.shadowGroup, work, steps, traced);
     }
     path.ray = vertex.ray;
     path.state = vertex.state;

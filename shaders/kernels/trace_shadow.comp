@@ -1,5 +1,5 @@
 // One thread is one entry of the shadow queue. Adds the light it carries if nothing is in its way.
-// Reads the scene, the shadow queue, shadow rays, states. Updates radiance, ray counts.
+// Reads the scene, the shadow queue, shadow rays, states. Updates radiance, light of groups, ray counts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_SHADOW_QUEUE
@@ -7,6 +7,7 @@
 #define READS_SHADOW_RAYS
 #define READS_STATES
 #define UPDATES_RADIANCE
+#define UPDATES_GROUP_LIGHT
 #define UPDATES_RAY_COUNTS
 #include "access/catcher.glsl"
 #include "access/path_time.glsl"
@@ -27,8 +28,12 @@ void main()
         ShadowRay ray = fetchShadowRay(slot);
         vec3 clear = transmittance(ray, sidesOfRay(slot, pass.bounce + 1u));
         if (isClear(clear)) {
-            addRadiance(slot, attenuate(ray.contribution, clear),
-                        hasFeature(kFeatureScattering) ? fetchState(slot).bounce : pass.bounce + 1u);
+            vec3 light = attenuate(ray.contribution, clear);
+            uint pathLength = hasFeature(kFeatureScattering) ? fetchState(slot).bounce : pass.bounce + 1u;
+            addRadiance(slot, light, pathLength);
+            if (hasFeature(kFeatureLightGroups)) {
+                addToGroup(slot, fetchShadowGroup(slot), light, pathLength);
+            }
         }
     }
     checkLoopBudget(render.canarySteps);

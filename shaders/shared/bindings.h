@@ -43,6 +43,9 @@ GLIM_CONST uint kBindLuminance = 21u;
 GLIM_CONST uint kBindBrightest = 23u;
 GLIM_CONST uint kBindSplats = 39u;
 GLIM_CONST uint kBindCatchers = 57u;
+GLIM_CONST uint kBindGroupSums = 59u;
+// light_groups.glsl
+GLIM_CONST uint kBindGroupLight = 58u;
 // pass.glsl
 GLIM_CONST uint kBindChosenPixels = 22u;
 // notes.glsl

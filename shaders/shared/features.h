@@ -48,7 +48,8 @@ GLIM_SHARED_BEGIN
     FEATURE(Lines, 36, "lines") /* with Spheres */ \
     FEATURE(Scattering, 37, "scattering volumes") /* with Media */ \
     FEATURE(Catcher, 38, "shadow catchers") \
-    FEATURE(Motion, 39, "moving nodes") /* while the shutter is open; with Instances */
+    FEATURE(Motion, 39, "moving nodes") /* while the shutter is open; with Instances */ \
+    FEATURE(LightGroups, 40, "light groups")
 // clang-format on
 
 #ifdef __cplusplus

@@ -29,7 +29,7 @@ struct PathState {
     float cosine;    // of the ray's direction against the shading normal it left, >= 0; or minus the scatterings in a volume since then
     float etaScale;  // product of squared relative indices: throughput * etaScale is without refraction's scaling of radiance
     uint bounce;     // surfaces met
-    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl), or kNoReceiverNormal
+    uint normal;     // shading normal where the ray started, octahedral (lib/octahedral.glsl), or kNoReceiverNormal; a light path's group
 };
 
 // PathState::normal of a surface that transmits: lights on both sides count.
@@ -216,6 +216,7 @@ struct RenderParameters {
     uint lightPaths;                         // per sample of the picture
     float splatScale;                        // units of a splat per W/(sr m^2), a power of two
     float timeBegin, timeSpan;               // of paths, as in FlatMotionKey; of a span of 0 all have the same time
+    uint lightGroups;                        // how many; 0: the film has none
 };
 
 // Whether a path samples lights at the surface that it meets after `bounce` others. That light has then met bounce + 1 surfaces. At the

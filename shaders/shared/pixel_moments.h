@@ -74,6 +74,20 @@ GLIM_FUNCTION CatcherMoments foldMoments(CatcherMoments a, CatcherMoments b)
     return sum;
 }
 
+// By light groups a pixel has the mean of each group and then, for each pair of them (0, 0), (0, 1) ... (1, 1) ..., what `squares` is in
+// PixelMoments, with the one's mean times the other's.
+GLIM_FUNCTION uint pairsOfGroups(uint groups) { return groups * (groups + 1u) / 2u; }
+GLIM_FUNCTION uint momentsOfGroups(uint groups) { return groups + pairsOfGroups(groups); }
+// On the device the sums of the open block come first, one for each group.
+GLIM_FUNCTION uint sumsOfGroups(uint groups) { return groups + momentsOfGroups(groups); }
+
+// As foldMoments: what b's mean is apart from a's is `delta`; samplesOfA of samplesOfA + b's are a's, and share of them b's.
+GLIM_FUNCTION vec3 foldMean(vec3 a, vec3 delta, float share) { return a + delta * share; }
+GLIM_FUNCTION vec3 foldProducts(vec3 a, vec3 b, vec3 delta, vec3 otherDelta, float samplesOfA, float share)
+{
+    return (a + b) + (delta * otherDelta) * (samplesOfA * share);
+}
+
 // Luminance (Rec.709) of a pixel's samples, for adaptive sampling.
 struct LuminanceMoments {
     uint count;

@@ -113,12 +113,16 @@ GLIM_CONST float kOpaque = -2.0;    // alpha is 1, whatever textures say
 GLIM_CONST uint kThinWall = 2u;     // light passes it straight (access/transparency.glsl): it is smooth and has no medium
 GLIM_CONST uint kCatcher = 4u;      // of shadows (access/catcher.glsl)
 
+// Lights in groups (access/light_groups.glsl): where the number of the group is in MaterialData::flags and in FlatLight::kind.
+GLIM_CONST uint kLightGroupShift = 16u;
+GLIM_CONST uint kMaxLightGroups = 8u;
+
 struct MaterialData {
     vec3 baseColor;
     uint type;          // kLambert ...
     vec3 emission;      // radiance, W/(sr m^2)
     float ior;          // of a solid that transmits
-    uint flags;         // kDoubleSided | kThinWall | kCatcher
+    uint flags;         // kDoubleSided | kThinWall | kCatcher, and the light group of what it emits
     uint principled;    // texel of its PrincipledData, if it has one
     float alpha;        // of primitives with kAlphaBit, before textures
     float alphaCutoff;  // of those: below it they are transparent, else opaque; or kCoverage or kOpaque
@@ -240,7 +244,7 @@ GLIM_CONST uint kUnevenLight = 0x200u;  // its emission changes over the surface
 // Each primitive that emits is a light of its own; two triangles that make a rectangle are one. Finite lights come first, in the order of
 // the light tree's leaves; infinite ones, the directional lights and the environment, last.
 struct FlatLight {
-    uint kind;            // kTriangleLight ..., | kDoubleSidedLight | kUnevenLight
+    uint kind;            // kTriangleLight ..., | kDoubleSidedLight | kUnevenLight, and its light group
     uint primitiveRef;    // triangle, sphere: one of its references
     uint primitive;       // triangle, sphere; rectangle: of the half at `position`
     uint otherPrimitive;  // rectangle: of the other half

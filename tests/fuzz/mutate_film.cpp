@@ -99,13 +99,13 @@ private:
     static void change(Checkpoint& checkpoint, Choice& choice)
     {
         switch (choice.below(8)) {
-        case 0: change(checkpoint.page, choice); break;
+        case 0: change(checkpoint.page.pixels, choice); break;
         case 1: change(checkpoint.film.pixels, choice); break;
         case 2: change(checkpoint.progress.sample, choice); break;
         case 3: change(checkpoint.progress.pixelsAhead, choice); break;
         case 4: change(checkpoint.progress.lightSample, choice); break;
-        case 5: checkpoint.pageSplats.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, SplatMoments{}); break;
-        case 6: checkpoint.page.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, PixelMoments{}); break;
+        case 5: checkpoint.page.splats.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, SplatMoments{}); break;
+        case 6: checkpoint.page.pixels.assign(choice.oneIn(2) ? checkpoint.film.pixels.size() : 0, PixelMoments{}); break;
         default: changeAdaptive(checkpoint, choice);
         }
     }
@@ -119,7 +119,7 @@ private:
             counts->resize(checkpoint.film.pixels.size());
             change(*counts, choice);
         }
-        checkpoint.common.resize(checkpoint.film.pixels.size());
+        checkpoint.common.pixels.resize(checkpoint.film.pixels.size());
     }
 
     fs::path file_;

@@ -240,16 +240,21 @@ void writeFilms(const fs::path& folder)
     Film caught = smallFilm(0, kPageSamples, false);
     caught.catcher.assign(6, {kPageSamples, 0.5F, glm::vec3(0.25F), glm::vec3(0.5F), glm::vec3(0.1F)});
     Checkpoint catching = makeCheckpoint(caught).value();
-    catching.pageCatcher = catching.film.catcher;
-    catching.page = catching.film.pixels;
+    catching.page = catching.film;
     writeFilm(folder / "catcher.exr", makeFilm(catching), catching);
+    Film grouped = smallFilm(0, kPageSamples, true);
+    grouped.identity.settings += " light-groups=key,others";
+    grouped.groups = grouped.splatGroups = GroupMoments(2, 6);
+    std::ranges::fill(grouped.groups.values, glm::vec3(0.25F));
+    Checkpoint grouping = makeCheckpoint(grouped).value();
+    grouping.page = grouping.film;
+    writeFilm(folder / "groups.exr", makeFilm(grouping), grouping);
     Film apart = smallFilm(0, 64, false);
     apart.sampleRanges.emplace_back(128, 256);
     writeFilm(folder / "apart.exr", apart);
     Checkpoint checkpoint = makeCheckpoint(smallFilm(0, kPageSamples, true)).value();
     writeFilm(folder / "whole_page.exr", makeFilm(checkpoint), checkpoint);
-    checkpoint.page = checkpoint.film.pixels;
-    checkpoint.pageSplats = checkpoint.film.splats;
+    checkpoint.page = checkpoint.film;
     writeFilm(folder / "page.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.progress.adaptive =
         AdaptiveProgress{64, 128, 64, 128, true, std::vector<std::uint32_t>(6, 4), std::vector<std::uint32_t>(6, 2)};

@@ -3,6 +3,8 @@
 #include "host/render/check_memory.hpp"
 
 #include "host/error.hpp"
+#include "shaders/shared/pixel_moments.h"
+#include "shaders/shared/scene_types.h"
 #include "tests/support/expect_message.hpp"
 
 #include <gtest/gtest.h>
@@ -44,6 +46,28 @@ TEST(CheckMemoryTest, TexturesThatDoNotFitNameTheOption)
     };
     refused(8 * kMebibyte, 2 * kMebibyte, "8 MiB", true);
     refused(16, 1, "0 MiB", false);
+}
+
+// With g groups a path has a word and g colours, and a pixel of the device g colours and momentsOfGroups(g).
+TEST(CheckMemoryTest, LightGroupsAreCounted)
+{
+    PreparedScene prepared;
+    RenderSettings settings;
+    settings.width = settings.height = 100;
+    settings.pathCapacity = 1024;
+    DeviceDescription device;
+    device.deviceClass = DeviceClass::DiscreteGpu;
+    device.maxGroups = 32;
+    device.maxStorageBuffer = device.maxAllocation = std::uint64_t{1} << 27U;
+    device.maxTexelElements = 1U << 27U;
+    EXPECT_EQ(computeGroupBytes(prepared, settings, device, false), 0U);
+    settings.lightGroups = {"a", "b", "others"};
+    const std::uint64_t moments = 9 * 12, onDevice = 12 * 12 * 10000 + 1024 * 40;
+    EXPECT_EQ(computeGroupBytes(prepared, settings, device, false), onDevice + 2 * moments * 10000);
+    EXPECT_EQ(computeGroupBytes(prepared, settings, device, true), onDevice + 8 * moments * 10000);
+    EXPECT_LE(settings.tileSize() * 144ULL, kMostOfBuffer);
+    settings.lightGroups.resize(kMaxLightGroups);
+    EXPECT_LE(settings.tileSize() * std::uint64_t{sumsOfGroups(kMaxLightGroups)} * 12, kMostOfBuffer);
 }
 
 }  // namespace

@@ -76,6 +76,67 @@ TEST(FilmFile, ReadsBackEveryBitOfSplats)
     EXPECT_EQ(std::memcmp(back.splats.data(), film.splats.data(), film.splats.size() * sizeof(SplatMoments)), 0);
 }
 
+// With light groups, of camera paths or of both kinds.
+Film filmWithGroups(bool splats)
+{
+    Film film = splats ? filmWithSplats() : simulateFilm(0, 128);
+    film.identity.settings += " light-groups=key,others";
+    const auto fill = [&film](GroupMoments& groups, float scale) {
+        groups = GroupMoments(2, film.pixels.size());
+        for (std::size_t i = 0; i < groups.values.size(); ++i) {
+            groups.values[i] = scale * glm::vec3(static_cast<float>(i), 0.5F, 1.0F / static_cast<float>(i + 1));
+        }
+    };
+    fill(film.groups, 0.25F);
+    if (splats) {
+        fill(film.splatGroups, 3.0F);
+    }
+    return film;
+}
+
+TEST(FilmFile, ReadsBackEveryBitOfLightGroups)
+{
+    const ScratchFolder folder;
+    for (const bool splats : {false, true}) {
+        const Film film = filmWithGroups(splats);
+        writeFilm(folder / "a.exr", film);
+        const Film back = readFilm(folder / "a.exr");
+        EXPECT_EQ(back.groups.values, film.groups.values);
+        EXPECT_EQ(back.splatGroups.values, film.splatGroups.values);
+        const Image image = readExr(folder / "a.exr");
+        for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+            EXPECT_EQ(image.channels.at("lights.others.B")[i], shownOfGroup(film, i, 1).b);
+            EXPECT_EQ(image.channels.at("lightsProducts.key.others.R")[i], film.groups.of(i)[3].r);
+        }
+        EXPECT_EQ(image.channels.contains("cameraLights.key.R"), splats);
+        Film other = film;
+        other.groups.values[5].g += 1.0F;
+        EXPECT_NE(computeDigest(other), computeDigest(film));
+    }
+}
+
+TEST(FilmFile, CheckpointsHaveLightGroups)
+{
+    const ScratchFolder folder;
+    Film film = filmWithGroups(true);
+    Checkpoint checkpoint = makeCheckpoint(film).value();
+    ASSERT_FALSE(checkpoint.page.groups.isEmpty());
+    writeFilm(folder / "a.exr", makeFilm(checkpoint), checkpoint);
+    checkpoint.common = film;
+    checkpoint.progress.adaptive.emplace().chosen.assign(film.pixels.size(), 1);
+    checkpoint.progress.adaptive->blocksLeft.assign(film.pixels.size(), 1);
+    writeFilm(folder / "b.exr", makeFilm(checkpoint), checkpoint);
+    for (const char* name : {"a.exr", "b.exr"}) {
+        const StoredFilm stored = readStoredFilm(folder / name);
+        ASSERT_TRUE(stored.checkpoint);
+        EXPECT_EQ(stored.film.groups.values, film.groups.values);
+        EXPECT_EQ(stored.checkpoint->page.groups.values, film.groups.values);
+        EXPECT_EQ(stored.checkpoint->page.splatGroups.values, film.splatGroups.values);
+        EXPECT_EQ(makeFilm(*stored.checkpoint).groups.values, film.groups.values);
+    }
+    EXPECT_EQ(readStoredFilm(folder / "b.exr").checkpoint->common.groups.values, film.groups.values);
+}
+
 TEST(FilmFile, PixelsDigestIgnoresKernelsAndDevice)
 {
     const ScratchFolder folder;

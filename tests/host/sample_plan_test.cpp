@@ -48,9 +48,9 @@ struct Taken {
     }
     void choose(const std::vector<PixelStart>& pixels)
     {
-        chosen.assign((settings.pixelCount() + settings.tilePixels - 1) / settings.tilePixels, {});
+        chosen.assign((settings.pixelCount() + settings.tileSize() - 1) / settings.tileSize(), {});
         for (const PixelStart& each : pixels) {
-            chosen[each.pixel / settings.tilePixels].push_back(each);
+            chosen[each.pixel / settings.tileSize()].push_back(each);
         }
     }
     // Whose index is not a multiple of 3, if they have fewer samples than `end`.

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 namespace glim::accumulate_test {
@@ -84,6 +85,129 @@ Outcome accumulate(const std::vector<PathRadiance>& radiance, const std::vector<
     commands.submitAndWait();
     return {download<PixelMoments>(pages, kPixels), download<LuminanceMoments>(luminances, kPixels),
             download<BrightestSample>(kept, kPixels), download<Status>(paths.status(), 1)[0]};
+}
+
+// Means of samples and products of their deviations, in double.
+struct Reference {
+    std::vector<double> means, products;
+};
+
+// By light groups, over blocks that end with sample 63 (test::blockEnd): the samples of one pixel, each with a value of each group.
+Reference foldBlocks(const std::vector<std::vector<double>>& samples, std::uint32_t first)
+{
+    const std::size_t groups = samples[0].size();
+    std::vector<std::vector<double>> blocks;
+    std::vector<double> counts;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto sample = static_cast<std::uint32_t>(first + i);
+        if (i == 0 || test::blockEnd(sample) != test::blockEnd(sample - 1)) {
+            blocks.emplace_back(groups, 0.0);
+            counts.push_back(0.0);
+        }
+        counts.back() += 1.0;
+        for (std::size_t g = 0; g < groups; ++g) {
+            blocks.back()[g] += samples[i][g];
+        }
+    }
+    Reference reference{std::vector<double>(groups, 0.0), {}};
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        for (std::size_t g = 0; g < groups; ++g) {
+            reference.means[g] += blocks[b][g] / static_cast<double>(samples.size());
+            blocks[b][g] /= counts[b];
+        }
+    }
+    for (std::size_t g = 0; g < groups; ++g) {
+        for (std::size_t other = g; other < groups; ++other) {
+            double sum = 0.0;
+            for (std::size_t b = 0; b < blocks.size(); ++b) {
+                sum += counts[b] * (blocks[b][g] - reference.means[g]) * (blocks[b][other] - reference.means[other]);
+            }
+            reference.products.push_back(sum);
+        }
+    }
+    return reference;
+}
+
+TEST(AccumulateTest, KeepsMeansAndProductsOfLightGroups)
+{
+    constexpr std::uint32_t kGroups = 3, kFirst = 60;  // a block of four samples and another one of four
+    const KernelLayout layout(testDevice(), kernelSlots(), sizeof(CoursePass));
+    Specialization constants = makeConstants(kFeatureLightGroups);
+    constants.insert({{kSpecWorkgroup, 64}, {kSpecChosen, 0}, {kSpecSuspects, 0}});
+    const Kernel kernel(layout, kernels::accumulate, constants);
+    const PathBuffers paths(testDevice(), kPixels * kSamples, kGroups);
+    const auto zeros = [](const char* name, std::size_t bytes, BufferKind kind = BufferKind::Storage) {
+        Buffer buffer(testDevice(), name, kind, bytes);
+        upload(buffer, std::span<const std::byte>(std::vector<std::byte>(bytes)));
+        return buffer;
+    };
+    const Buffer blocks = zeros("test's blocks", kPixels * sizeof(BlockSums)),
+                 pages = zeros("test's pages", kPixels * sizeof(PixelMoments));
+    const Buffer sums = zeros("test's groups", kPixels * sumsOfGroups(kGroups) * sizeof(vec3));
+    Buffer given(testDevice(), "test's radiance", BufferKind::Both, kPixels * kSamples * sizeof(PathRadiance));
+    Buffer light(testDevice(), "test's light", BufferKind::Storage, kPixels * kSamples * (1 + 3 * kGroups) * sizeof(float));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(0.0F, 2.0F);
+    std::vector<PathRadiance> radiance(kPixels * kSamples);
+    std::vector<float> words;
+    std::vector<std::vector<std::vector<double>>> samples(kPixels);  // the green of each group
+    for (std::uint32_t slot = 0; slot < kPixels * kSamples; ++slot) {
+        const bool isLost = slot == 3 * kSamples + 5;
+        radiance[slot].radiance = vec3(isLost ? std::numeric_limits<float>::infinity() : 1.0F);
+        std::vector<double> sample;
+        words.push_back(0.0F);
+        for (std::uint32_t g = 0; g < kGroups; ++g) {
+            words.insert(words.end(), {uniform(random), uniform(random), uniform(random)});
+            sample.push_back(static_cast<double>(words[words.size() - 2]));
+        }
+        if (!isLost) {
+            samples[slot / kSamples].push_back(sample);
+        }
+    }
+    upload(given, std::span<const PathRadiance>(radiance));
+    upload(light, std::span<const float>(words));
+    RenderParameters asked = anyParameters();
+    asked.lightGroups = kGroups;
+    const Buffer parameters = parametersBuffer(asked);
+    std::map<std::uint32_t, const Buffer*> bound = paths.buffers(0);
+    bound[kBindRadiance] = &given;
+    bound[kBindGroupLight] = &light;
+    bound[kBindGroupSums] = &sums;
+    bound[kBindBlocks] = &blocks;
+    bound[kBindPages] = &pages;
+    bound[kBindParameters] = &parameters;
+    const Bindings bindings(layout, bound);
+    Pass pass{};
+    pass.pixelCount = kPixels;
+    pass.firstSample = kFirst;
+    pass.sampleCount = kSamples;
+    pass.accumulate = kEndsBlock;
+    Commands commands(testDevice());
+    commands.dispatch(kernel, bindings, std::as_bytes(std::span<const Pass, 1>(&pass, 1)), (kPixels + 63) / 64);
+    commands.submitAndWait();
+    const std::vector<vec3> all = download<vec3>(sums, kPixels * sumsOfGroups(kGroups));
+    const std::vector<PixelMoments> counted = download<PixelMoments>(pages, kPixels);
+    for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        SCOPED_TRACE(pixel);
+        const vec3* of = &all[pixel * sumsOfGroups(kGroups)];
+        // The lost sample is the second of its block, so that the others stay where they are.
+        const Reference expected = pixel == 3 ? Reference{} : foldBlocks(samples[pixel], kFirst);
+        EXPECT_EQ(counted[pixel].count, pixel == 3 ? kSamples - 1 : kSamples);
+        for (std::uint32_t g = 0; g < kGroups; ++g) {
+            EXPECT_EQ(of[g], vec3(0.0F)) << "the next block is empty";
+            if (pixel != 3) {
+                EXPECT_NEAR(static_cast<double>(of[kGroups + g].g), expected.means[g], 1e-6);
+            }
+        }
+        for (std::size_t pair = 0; pair < expected.products.size(); ++pair) {
+            EXPECT_NEAR(static_cast<double>(of[2 * kGroups + pair].g), expected.products[pair], 2e-6);
+        }
+        double sum = 0.0;
+        for (const std::vector<double>& sample : samples[pixel]) {
+            sum += sample[0];
+        }
+        EXPECT_NEAR(static_cast<double>(of[kGroups].g), sum / static_cast<double>(samples[pixel].size()), 1e-6) << "without what is lost";
+    }
 }
 
 // Pixels whose plain average over their samples is not finite.

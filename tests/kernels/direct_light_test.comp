@@ -37,7 +37,8 @@ void main()
         ShadowRay shadow = ShadowRay(vec3(0.0), 0u, vec3(0.0), 0u, vec3(0.0), 0.0);
         SurfaceMaterial material = makeSurfaceMaterial(si);
         Bsdf bsdf = makeBsdf(si, material, c.ns);
-        LightSample light = sampleDirectLight(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.state.bounce);
+        uint group;
+        LightSample light = sampleDirectLight(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.state.bounce, group);
         bool asks = makeShadowRay(si, light, evalBsdf(bsdf, c.ns, light.wi), c.state, shadow);
         PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
         PathHit hit = traceClosest(ray);

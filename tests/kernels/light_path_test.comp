@@ -18,7 +18,8 @@ layout(set = 0, binding = kBindResults, scalar) writeonly buffer Results { Resul
 void main()
 {
     if (isTestThread()) {
-        LightRay light = sampleEmission(lightPathId(render.seed, TEST_THREAD, 0u));
+        uint group;
+        LightRay light = sampleEmission(lightPathId(render.seed, TEST_THREAD, 0u), group);
         LightChoice choice = chooseCausticLight(words[TEST_THREAD]);
         results[TEST_THREAD] = Result(light.ray, light.flux, light.range, choice.light, choice.probability);
         EXPECT_TRUE(light.flux == vec3(0.0) || abs(dot(light.ray.direction, light.ray.direction) - 1.0) < 1e-6);

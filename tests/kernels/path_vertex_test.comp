@@ -12,6 +12,7 @@ struct Case {
 
 struct Result {
     vec3 emitted;
+    uint emittedGroup, shadowGroup, environmentGroup;
     FirstHit firstHit;
     uint hasShadowRay;
     ShadowRay shadowRay;
@@ -30,10 +31,11 @@ void main()
         PathHit hit = traceClosest(c.ray);
         if (hit.primitiveRef == kNoPrimitiveRef) {
             results[TEST_THREAD].emitted = shadeMiss(c.ray, c.state);
+            results[TEST_THREAD].environmentGroup = environmentGroup();
         } else {
             VertexResult v = shadeSurface(SampleId(render.seed, TEST_THREAD, 0u), c.ray, hit, c.state);
             results[TEST_THREAD] =
-                Result(v.emitted, v.firstHit, uint(v.hasShadowRay), v.shadowRay, uint(v.hasNextRay), v.ray, v.state);
+                Result(v.emitted, v.emittedGroup, v.shadowGroup, 0u, v.firstHit, uint(v.hasShadowRay), v.shadowRay, uint(v.hasNextRay), v.ray, v.state);
         }
         EXPECT_TRUE((hit.primitiveRef == kNoPrimitiveRef) == (c.ray.direction.y > 0.0));
     }

@@ -24,6 +24,7 @@ struct Case {
 
 struct Result {
     vec3 emitted;
+    uint emittedGroup, shadowGroup, environmentGroup;
     FirstHit firstHit;
     uint hasShadowRay;
     ShadowRay shadowRay;
@@ -57,7 +58,9 @@ SceneBuilder floorWith(const dvec3& emission)
 
 std::vector<Result> shade(const SceneBuilder& builder, const std::vector<Case>& cases)
 {
-    const SceneOnDevice scene(builder.scene());
+    Scene grouped = builder.scene();
+    grouped.lightGroups.resize(kMaxLightGroups);
+    const SceneOnDevice scene(grouped);
     const Buffer note(testDevice(), "test's note", BufferKind::Storage, sizeof(PathNote));
     KernelTest test = scene.test(test_kernels::path_vertex_test);
     test.buffers({{kBindNote, &note}});
@@ -87,6 +90,7 @@ TEST(PathVertexTest, ASurfaceIsLitFromALampUntilTheLastBounce)
     lamp.kind = PunctualLight::Kind::Point;
     lamp.position = vec3(kLamp);
     lamp.intensity = vec3(kIntensity);
+    lamp.group = 5;
     builder.light(lamp);
     const std::vector<Case> cases = downwardRays();
     const std::vector<Result> results = shade(builder, cases);
@@ -106,6 +110,7 @@ TEST(PathVertexTest, ASurfaceIsLitFromALampUntilTheLastBounce)
         const dvec3 toLamp = kLamp - dvec3(r.shadowRay.origin);
         const double distance = glm::length(toLamp), cosine = toLamp.y / distance;
         EXPECT_LT(glm::distance(dvec3(r.shadowRay.origin), pointOf(c.ray)), 1e-4);
+        EXPECT_EQ(r.shadowGroup, 5U);
         expectNear(r.shadowRay.contribution, dvec3(c.state.throughput) * kAlbedo / kPi * cosine * kIntensity / (distance * distance));
         expectNear(r.shadowRay.direction, toLamp);
         EXPECT_EQ(r.shadowRay.tMax, 1.0F);
@@ -124,7 +129,12 @@ TEST(PathVertexTest, ASurfaceIsLitFromALampUntilTheLastBounce)
 TEST(PathVertexTest, ASurfaceEmitsWhatLightSamplingCannotFind)
 {
     const std::vector<Case> cases = downwardRays();
-    for (const Result& r : shade(floorWith(kEmission), cases)) {
+    SceneBuilder builder = floorWith(dvec3(0.0));
+    Material lamp = makeLambert(vec3(kAlbedo), vec3(kEmission));
+    lamp.lightGroup = 3;
+    builder.quad({vec3(-50, 0.001F, 50), {50, 0.001F, 50}, {50, 0.001F, -50}, {-50, 0.001F, -50}}, builder.add(lamp));
+    for (const Result& r : shade(builder, cases)) {
+        EXPECT_EQ(r.emittedGroup, 3U);
         expectNear(r.emitted, dvec3(cases[0].state.throughput) * kEmission);
         EXPECT_EQ(r.hasShadowRay, 0U);
     }
@@ -144,6 +154,7 @@ TEST(PathVertexTest, AMissHasTheEnvironmentByItsMisWeight)
         const double pdf = static_cast<double>(state.pdf), lightPdf = static_cast<double>(state.cosine) / kPi;
         const double weight = pdf > 0.0 ? pdf * pdf / (pdf * pdf + lightPdf * lightPdf) : 1.0;
         expectNear(results[i].emitted, weight * dvec3(state.throughput) * kSky);
+        EXPECT_EQ(results[i].environmentGroup, 0U);
     }
 }
 

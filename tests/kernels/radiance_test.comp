@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define UPDATES_RADIANCE
+#define UPDATES_GROUP_LIGHT
 #include "access/course/radiance.glsl"
 #include "expect.glsl"
 
@@ -9,6 +10,7 @@ struct Case {
     vec3 contribution;
     uint pathLength;
     uint share;  // 1: one of the light samples of a round
+    uint group;  // of lights
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -21,6 +23,7 @@ void main()
             addShareOfRadiance(TEST_THREAD, c.contribution, c.pathLength);
         } else {
             addRadiance(TEST_THREAD, c.contribution, c.pathLength);
+            addToGroup(TEST_THREAD, c.group, c.contribution, c.pathLength);
         }
     }
     endTest();

@@ -10,12 +10,13 @@
 
 namespace glim::radiance_test {
 
-constexpr uint kLightSamples = 8;
+constexpr uint kLightSamples = 8, kGroups = 3;
 
 struct Case {
     vec3 contribution;
     uint pathLength;
     uint share;
+    uint group;
 };
 
 // Light that met two surfaces or more keeps its colour and has no channel above the limit; the mean of what is lost is reported.
@@ -41,7 +42,7 @@ void expectSums(float limit, uint least, uint most)
         const uint pathLength = i % 4;
         const uint share = i % 3 == 0 ? 1 : 0;
         const bool wanted = pathLength >= least && pathLength <= most;
-        cases.push_back({contribution, pathLength, share});
+        cases.push_back({contribution, pathLength, share, i % kGroups});
         const double clampLimit = static_cast<double>(limit) / (share != 0 ? kLightSamples : 1);
         expected.push_back(wanted ? add(before.back(), glm::dvec3(contribution), pathLength, clampLimit) : before.back());
     }
@@ -52,11 +53,22 @@ void expectSums(float limit, uint least, uint most)
     test.parameters().clampIndirect = limit;
     test.parameters().minPathLength = least;
     test.parameters().maxPathLength = most;
-    test.cases(cases).buffers({{kBindRadiance, &sums}}).run();
+    test.parameters().lightGroups = kGroups;
+    Buffer groups(testDevice(), "test's light groups", BufferKind::Storage, before.size() * (sizeof(uint) + kGroups * sizeof(vec3)));
+    upload(groups, std::span<const float>(std::vector<float>(before.size() * (1 + 3 * kGroups), 0.5F)));
+    test.pass().sampleCount = 1;
+    test.cases(cases).buffers({{kBindRadiance, &sums}, {kBindGroupLight, &groups}}).run();
+    const std::vector<float> byGroup = download<float>(groups, before.size() * (1 + 3 * kGroups));
     const std::vector<PathRadiance> after = download<PathRadiance>(sums, cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const float sum = glm::length(expected[i].radiance);
         EXPECT_LE(glm::distance(after[i].radiance, expected[i].radiance), 4e-7F * sum) << "case " << i;
+        for (uint g = 0; g < kGroups; ++g) {
+            const float* of = &byGroup[i * (1 + 3 * kGroups) + 1 + 3 * g];
+            const bool gets = g == cases[i].group && cases[i].share == 0;
+            const vec3 added = gets ? expected[i].radiance - before[i].radiance : vec3(0.0F);
+            EXPECT_LE(glm::distance(vec3(of[0], of[1], of[2]), added + 0.5F), 2e-6F * (sum + 1.0F)) << "case " << i << ", group " << g;
+        }
         // The difference of contribution and kept: as right as the larger of them.
         EXPECT_NEAR(after[i].clamped, expected[i].clamped, 4e-7F * (glm::length(cases[i].contribution) + expected[i].clamped));
     }

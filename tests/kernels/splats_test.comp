@@ -9,6 +9,7 @@ struct Case {
     uint sampleIndex;
     uint pathLength;
     vec3 contribution;
+    uint group;
 };
 
 layout(set = 0, binding = kBindCases, scalar) readonly buffer Cases { Case cases[]; };
@@ -17,7 +18,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        addSplat(c.pixel, c.sampleIndex, c.contribution, c.pathLength);
+        addSplat(c.pixel, c.sampleIndex, c.contribution, c.pathLength, c.group);
     }
     endTest();
 }

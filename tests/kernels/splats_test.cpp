@@ -21,6 +21,7 @@ struct Case {
     uint sampleIndex;
     uint pathLength;
     vec3 contribution;
+    uint group = 0;
 };
 
 using Sums = std::array<std::uint64_t, 4>;  // red, green, blue, clamped
@@ -31,22 +32,24 @@ struct Outcome {
 };
 
 // `before`: what each sum of each pixel holds at first.
-Outcome add(const std::vector<Case>& cases, float scale = 1.0F, float clamp = INFINITY, std::uint64_t before = 0)
+Outcome add(const std::vector<Case>& cases, float scale = 1.0F, float clamp = INFINITY, std::uint64_t before = 0, uint groups = 0)
 {
+    const std::size_t count = kPixels * std::max(1U, groups);
     const uvec2 words(static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(before >> 32U));
-    Buffer splats(testDevice(), "test's splats", BufferKind::Storage, kPixels * sizeof(Splat));
+    Buffer splats(testDevice(), "test's splats", BufferKind::Storage, count * sizeof(Splat));
     Buffer status(testDevice(), "test's status", BufferKind::Storage, sizeof(Status));
-    upload(splats, std::span<const Splat>(std::vector<Splat>(kPixels, Splat{words, words, words, words})));
+    upload(splats, std::span<const Splat>(std::vector<Splat>(count, Splat{words, words, words, words})));
     upload(status, std::span<const Status>(std::vector<Status>(1)));
     KernelTest test(test_kernels::splats_test);
     test.cases(cases).buffers({{kBindSplats, &splats}, {kBindStatus, &status}});
     test.pass().tileBegin = kFirst;
     test.parameters().splatScale = scale;
     test.parameters().clampIndirect = clamp;
+    test.parameters().lightGroups = groups;
     test.run();
     Outcome outcome{{}, download<Status>(status, 1)[0]};
     const auto wide = [](const uvec2& sum) { return std::uint64_t{sum.y} << 32U | sum.x; };
-    for (const Splat& splat : download<Splat>(splats, kPixels)) {
+    for (const Splat& splat : download<Splat>(splats, count)) {
         outcome.sums.push_back({wide(splat.red), wide(splat.green), wide(splat.blue), wide(splat.clamped)});
     }
     return outcome;
@@ -185,6 +188,33 @@ TEST(SplatsTest, ClampedLightIsKeptApart)
     const Outcome outcome = add({{kFirst, 0, 1, vec3(64.0F, 32.0F, 0.0F)}, {kFirst + 1, 0, 2, vec3(64.0F, 32.0F, 0.0F)}}, 1024.0F, 16.0F);
     EXPECT_EQ(outcome.sums[0], (Sums{65536, 32768, 0, 0}));
     EXPECT_EQ(outcome.sums[1], (Sums{16384, 8192, 0, (48 + 24) * 1024 / 3}));
+}
+
+// The sums of a group lie behind those of the group before.
+TEST(SplatsTest, EachLightGroupHasItsOwnSums)
+{
+    constexpr uint kGroups = 3;
+    std::vector<Case> cases = anyCases(9, 20000, 33);
+    std::vector<Sums> expected(kPixels * kGroups);
+    Random random(2);
+    for (Case& c : cases) {
+        c.group = random.below(kGroups);
+        for (int k = 0; k < 3; ++k) {
+            expected[c.group * kPixels + c.pixel - kFirst][static_cast<std::size_t>(k)] += static_cast<std::uint64_t>(c.contribution[k]);
+        }
+    }
+    EXPECT_EQ(add(cases, 1.0F, INFINITY, 0, kGroups).sums, expected);
+    cases = {{kFirst + kPixels, 0, 1, vec3(7.0F), 1}, {kFirst - 1, 0, 1, vec3(7.0F), 1}};
+    EXPECT_EQ(add(cases, 1.0F, INFINITY, 0, kGroups).sums, std::vector<Sums>(kPixels * kGroups)) << "of other pixels";
+}
+
+// What all of them have together is a sum of 64 bits, too.
+TEST(SplatsTest, OverflowOfAllGroupsTogetherIsReported)
+{
+    const std::vector<Case> cases{{kFirst, 0, 1, vec3(0x1p40F), 2}};
+    EXPECT_EQ(add(cases, 1.0F, INFINITY, 0x7fffff0000000000ULL).status.splatOverflows, 0U);
+    EXPECT_EQ(add(cases, 1.0F, INFINITY, 0x3fffff0000000000ULL, 4).status.splatOverflows, 3U) << "of its three channels";
+    EXPECT_EQ(add(cases, 1.0F, INFINITY, 0x3ffff00000000000ULL, 4).status.splatOverflows, 0U);
 }
 
 }  // namespace glim::splats_test

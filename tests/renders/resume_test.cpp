@@ -55,7 +55,7 @@ public:
                 return film;
             }
             if (checkpoint) {
-                apart += checkpoint->page.empty() ? 0 : 1;
+                apart += checkpoint->page.pixels.empty() ? 0 : 1;
                 ahead += checkpoint->progress.pixelsAhead > 0 ? 1 : 0;
                 choosing += checkpoint->progress.adaptive && checkpoint->progress.adaptive->choosing ? 1 : 0;
                 writeFilm(file_, film, *checkpoint);

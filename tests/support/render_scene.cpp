@@ -143,10 +143,11 @@ void expectEverywhere(const Film& film, const glm::dvec3& truth, int bounces)
 
 bool sameBits(const Film& a, const Film& b)
 {
-    return a.pixels.size() == b.pixels.size() && a.splats.size() == b.splats.size() && a.catcher.size() == b.catcher.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(PixelMoments)) == 0 &&
-           (a.splats.empty() || std::memcmp(a.splats.data(), b.splats.data(), a.splats.size() * sizeof(SplatMoments)) == 0) &&
-           (a.catcher.empty() || std::memcmp(a.catcher.data(), b.catcher.data(), a.catcher.size() * sizeof(CatcherMoments)) == 0);
+    const auto same = [](const auto& x, const auto& y) {
+        return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+    };
+    return same(a.pixels, b.pixels) && same(a.splats, b.splats) && same(a.catcher, b.catcher) && same(a.groups.values, b.groups.values) &&
+           same(a.splatGroups.values, b.splatGroups.values);
 }
 
 void expectSameMean(const std::string& name, const Film& a, const Film& b)

@@ -57,7 +57,7 @@ inline Film simulateFilm(std::uint32_t begin, std::uint32_t end, std::uint32_t s
                 page[pixel] = foldMoments(page[pixel], simulateBlock(seed, pixel, first, last));
             }
         }
-        foldPage(film, 0, page);
+        foldPage(film, 0, {page, {}, {}});
     }
     return film;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A small picture of a scene has the same bits by the driver of the tests and by a second one. Arguments: glim's program, the second
-driver's file, and the scene."""
+"""A small picture of a scene, by light groups, has the same bits by the driver of the tests and by a second one. Arguments: glim's
+program, the second driver's file, and the scene."""
 
 import os
 import subprocess
@@ -15,7 +15,8 @@ from render_farm.exr_header import read_header_of  # noqa: E402
 
 def render(glim, scene, film, **environment):
     """What its pixels are told by."""
-    subprocess.run([glim, "render", scene, "-o", film, "--size", "32x32", "--spp", "64", "--progress", "none"], check=True,
+    subprocess.run([glim, "render", scene, "-o", film, "--size", "32x32", "--spp", "64", "--light-group", "each",
+                    "--progress", "none"], check=True,
                    env={**os.environ, **environment})
     return read_header_of(film)["glim:pixels"]
 
