@@ -18,10 +18,20 @@ constexpr HelpLine kHelp[] = {
     {"B", "A, B or A - B"},
     {"+ -", "exposure, or gain of A - B"},
     {"T", "next tone"},
+    {"L", "print the lights, for glim merge"},
     {"click", "print the pixel's layers"},
     {"H", "controls, these keys, nothing"},
     {"Esc", "quit"},
 };
+
+// What the light is multiplied by: evenly in stops, and 0 at the left end.
+double lightSlider(const std::string& group, double factor)
+{
+    constexpr float kMost = 16.0F, kLeast = 0.01F;
+    auto chosen = static_cast<float>(factor);
+    const bool moved = ImGui::SliderFloat(("light " + group).c_str(), &chosen, 0.0F, kMost, "x %.2f", ImGuiSliderFlags_Logarithmic);
+    return moved ? (chosen < kLeast ? 0.0 : static_cast<double>(chosen)) : factor;
+}
 
 const char* getName(Side side)
 {
@@ -46,6 +56,9 @@ ViewChoices showViewPanel(const ViewFigures& figures, ViewChoices choices)
         ImGui::BeginDisabled(!figures.isToned);
         choices.tone = toneCombo(choices.tone);
         ImGui::EndDisabled();
+        for (std::size_t g = 0; g < figures.lights.size(); ++g) {
+            choices.lights[g] = lightSlider(figures.lights[g], choices.lights[g]);
+        }
         ImGui::Separator();
         for (const std::string& line : figures.lines) {
             ImGui::TextUnformatted(line.c_str());

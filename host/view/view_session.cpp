@@ -4,6 +4,7 @@
 #include "host/measure/compare_images.hpp"
 #include "host/measure/error_picture.hpp"
 #include "host/message.hpp"
+#include "host/text.hpp"
 #include "host/window/widgets.hpp"
 
 #include <algorithm>
@@ -42,6 +43,7 @@ ViewSession::ViewSession(Window& window, EventQueue& events, const ViewOptions& 
       exposureIsAuto_(!options.look.exposure)
 {
     tone_ = options.look.tone.value_or(Tone::None);
+    lights_.assign(films_.lightGroups().size(), 1.0);
     painter_.resize(glm::max(window.pictureSize(), 1U));
     place(fit(films_.size(), painter_.size()));
     chooseLayer(0);
@@ -136,6 +138,8 @@ void ViewSession::press(char key)
         wanted.exposure += key == '+' ? kExposureStep : -kExposureStep;
     } else if (key == 'T' && isToned()) {
         wanted.tone = static_cast<Tone>((static_cast<std::uint32_t>(tone_) + 1) % 3);
+    } else if (key == 'L') {
+        printLights();
     } else if (key == 'V') {
         wanted.layer = (layer_ + 1) % films_.layers().size();
     } else if (key == 'B') {
@@ -222,11 +226,28 @@ void ViewSession::change(const ViewChoices& wanted)
         tone_ = wanted.tone;
         drawn_ = false;
     }
+    if (wanted.lights != lights_) {
+        setLights(wanted.lights);
+    }
     if (wanted.layer != layer_) {
         chooseLayer(wanted.layer);
     } else if (wanted.side != side_) {
         chooseSide(wanted.side);
     }
+}
+
+// Exposure stays, so that the lights are seen to change.
+void ViewSession::setLights(const std::vector<double>& lights)
+{
+    lights_ = lights;
+    std::vector<glm::vec3> factors;
+    for (const double light : lights_) {
+        factors.emplace_back(static_cast<float>(light));
+    }
+    const std::optional<double> rmse = films_.setLights(factors);
+    lightsError_ = rmse ? formatted("with these lights: RMSE %.3g %% of the mean", 100.0 * *rmse) : "";
+    exposureIsAuto_ = false;
+    chooseLayer(layer_);
 }
 
 std::vector<Side> ViewSession::sides() const
@@ -260,6 +281,8 @@ void ViewSession::readChangedFilms()
     if (!reading.taken.empty()) {
         const auto& layers = films_.layers();
         const auto same = std::find_if(layers.begin(), layers.end(), [&](const ViewedLayer& layer) { return layer.name == name; });
+        lights_.assign(films_.lightGroups().size(), 1.0);
+        lightsError_.clear();
         chooseLayer(same == layers.end() ? 0 : static_cast<std::size_t>(same - layers.begin()));
         if (films_.size() != before) {
             place(fit(films_.size(), painter_.size()));
@@ -356,6 +379,7 @@ ViewFigures ViewSession::figures() const
     figures.sides = sides();
     figures.isExposed = isExposed();
     figures.isToned = isToned();
+    figures.lights = films_.lightGroups();
     for (std::size_t i = 0; i < films_.count(); ++i) {
         figures.lines.push_back(std::string(i == 0 ? "A " : "B ") + films_.path(i).filename().string());
     }
@@ -370,6 +394,9 @@ ViewFigures ViewSession::figures() const
         figures.lines.push_back(formatted("white %.4g, grey %.4g", low, high));
     } else if (shown_.layer.shownAs == ShownAs::Heat) {
         figures.lines.push_back(formatted("blue %.3g, red %.3g", low, high));
+    }
+    if (!lightsError_.empty()) {
+        figures.lines.push_back(lightsError_);
     }
     for (std::string& line : describePixel()) {
         figures.lines.push_back(std::move(line));
@@ -400,6 +427,15 @@ std::vector<std::string> ViewSession::describePixel() const
         lines.push_back("A - B " + toText(differences));
     }
     return lines;
+}
+
+void ViewSession::printLights() const
+{
+    const std::vector<std::string> groups = films_.lightGroups();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        std::cout << (g == 0 ? "" : " ") << "--light " << escaped(groups[g]) << '=' << exactText(std::round(1e4 * lights_[g]) / 1e4);
+    }
+    std::cout << (groups.empty() ? "" : "\n") << std::flush;
 }
 
 void ViewSession::print(const glm::uvec2& pixel) const

@@ -47,12 +47,14 @@ private:
     void chooseSide(Side side);
     void change(const ViewChoices& wanted);
     void print(const glm::uvec2& pixel) const;
+    void printLights() const;
+    void setLights(const std::vector<double>& lights);
     void tell(const std::string& text);
     void readChangedFilms();
 
     // The picture and its panel.
     std::vector<Side> sides() const;
-    ViewChoices shownChoices() { return {layer_, side_, exposure(), tone_}; }
+    ViewChoices shownChoices() { return {layer_, side_, exposure(), tone_, lights_}; }
     double& exposure() { return side_ == Side::Difference ? gain_ : exposure_; }
     bool isExposed() const { return side_ == Side::Difference || shown_.layer.isExposed; }
     bool isToned() const { return side_ != Side::Difference && shown_.layer.isToned; }
@@ -75,6 +77,8 @@ private:
     Tone tone_ = Tone::None;
     double exposure_ = 0.0, gain_ = 0.0;  // stops, of colours and of differences
     bool exposureIsAuto_ = false;
+    std::vector<double> lights_;     // factors of A's light groups
+    std::string lightsError_;        // of A with them
     std::array<Picture, 2> values_;  // of the layer, A's and B's; empty where a film has none
     Shown shown_;
     Viewport viewport_;

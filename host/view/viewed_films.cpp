@@ -2,6 +2,9 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/measure/error_estimate.hpp"
+#include "host/render/film_file.hpp"
+#include "host/render/film_layers.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -39,6 +42,19 @@ Image read(const std::filesystem::path& path)
     return image;
 }
 
+// The film in a file, if it has light groups. A file that another program has changed is only looked at.
+std::optional<Film> groupedFilm(const std::filesystem::path& path, const Image& image)
+{
+    try {
+        if (image.attributes.contains("glim:film") && !getLightGroups(readFilmHeader(path, image)).empty()) {
+            return readFilm(path, image);
+        }
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 ViewedFilms::ViewedFilms(const std::filesystem::path& a, const std::optional<std::filesystem::path>& b)
@@ -46,7 +62,8 @@ ViewedFilms::ViewedFilms(const std::filesystem::path& a, const std::optional<std
     for (const auto& path : {std::optional(a), b}) {
         if (path) {
             const auto time = timeOf(*path);
-            files_.push_back({*path, time, read(*path), {}});
+            files_.push_back({*path, time, read(*path), {}, {}});
+            files_.back().grouped = groupedFilm(*path, files_.back().image);
         }
     }
     if (b) {
@@ -75,6 +92,20 @@ std::string ViewedFilms::title() const
         title += " and " + files_[1].path.filename().string();
     }
     return title;
+}
+
+std::vector<std::string> ViewedFilms::lightGroups() const
+{
+    return files_[0].grouped ? getLightGroups(*files_[0].grouped) : std::vector<std::string>{};
+}
+
+std::optional<double> ViewedFilms::setLights(const std::vector<glm::vec3>& factors)
+{
+    Image& image = files_[0].image;
+    const Film film = regroup(*files_[0].grouped, factors);
+    addFilm(film, {0, film.pixels.size()}, image.channels.contains("error.R"), image);
+    const auto estimate = estimateError(film);
+    return estimate ? std::optional(relativeRoot(estimate->errors.mse, estimate->mean)) : std::nullopt;
 }
 
 void ViewedFilms::listLayers()
@@ -117,6 +148,7 @@ ViewedFilms::Reading ViewedFilms::readChanged()
     for (File& file : files_) {
         if (file.fresh) {
             file.image = std::move(*std::exchange(file.fresh, std::nullopt));
+            file.grouped = groupedFilm(file.path, file.image);
             reading.taken.push_back(file.path.filename().string());
         }
     }

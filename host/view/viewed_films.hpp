@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/message.hpp"
+#include "host/render/regroup.hpp"
 #include "host/view/layers.hpp"
 
 #include <array>
@@ -27,6 +28,10 @@ public:
     const std::filesystem::path& path(std::size_t i) const { return files_[i].path; }
     glm::uvec2 size() const { return {files_[0].image.width, files_[0].image.height}; }
     std::string title() const;
+    // Light groups of A, if it is a film that has some.
+    std::vector<std::string> lightGroups() const;
+    // Shows A with each group's light times a factor. Returns its RMSE with such lights, estimated, relative to its mean, if that is known.
+    std::optional<double> setLights(const std::vector<glm::vec3>& factors);
     // A's layers in their order, then those that only B has.
     const std::vector<ViewedLayer>& layers() const { return layers_; }
 
@@ -42,7 +47,8 @@ private:
         std::filesystem::path path;
         std::filesystem::file_time_type time;  // of the last write when it was read
         Image image;
-        std::optional<Image> fresh;  // read again, but not taken yet
+        std::optional<Image> fresh;   // read again, but not taken yet
+        std::optional<Film> grouped;  // if it has light groups
     };
 
     static std::optional<Message> disagreement(const File& a, const Image& imageOfA, const File& b, const Image& imageOfB);

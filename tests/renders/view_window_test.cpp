@@ -228,6 +228,26 @@ TEST_F(ViewWindowTest, PrintsWhatIsClicked)
     EXPECT_NE(done.err.find("inputs, from input to picture"), std::string::npos) << done.err;
 }
 
+// The first slider of a light is the fourth line of the panel, below layer, exposure and tone.
+TEST_F(ViewWindowTest, SlidersChangeTheLightsOfAFilm)
+{
+    make({"render", sceneFile("cornell_spheres.gltf"), "-o", "g.exr", "--size", "96x72", "--spp", "64", "--sun", "170,20,2",
+          "--light-group", "key=sun"});
+    make({"merge", "g.exr", "-o", "dark.exr", "--light", "key=0"});
+    GlimCall session = call("0 key H\n0.2 drag left 100,106 1,106\n0.2 key L\n0 click 300,250\n0 close\n", {"g.exr"});
+    session.arguments[2] = "480x360";
+    const GlimRun done = runGlim(session);
+    const Image dark = readExr(*films / "dark.exr");
+    const std::size_t pixel = 50 * 96 + 60;
+    char expected[200];
+    std::snprintf(expected, sizeof expected, "g.exr: color %.6g %.6g %.6g 1, albedo ", static_cast<double>(dark.channels.at("R")[pixel]),
+                  static_cast<double>(dark.channels.at("G")[pixel]), static_cast<double>(dark.channels.at("B")[pixel]));
+    EXPECT_EQ(done.out.rfind("--light key=0 --light others=1\npixel (60, 50) of 96x72\n", 0), 0U) << done.out;
+    EXPECT_NE(done.out.find(expected), std::string::npos) << done.out << expected;
+    std::snprintf(expected, sizeof expected, "error %.6g ", static_cast<double>(dark.channels.at("error.R")[pixel]));
+    EXPECT_NE(done.out.find(expected), std::string::npos) << done.out << expected;
+}
+
 // The panel's last lines are about the pixel under the mouse. Beside the panel is the picture, five times as large.
 TEST_F(ViewWindowTest, ThePanelFollowsTheMouse)
 {
