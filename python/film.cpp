@@ -6,6 +6,7 @@
 #include "host/render/composite.hpp"
 #include "host/render/film_pictures.hpp"
 #include "host/render/layers_file.hpp"
+#include "host/render/regroup.hpp"
 
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/filesystem.h>
@@ -88,6 +89,41 @@ nb::object composite(const PythonFilm& film)
         values.insert(values.end(), {pixel.mean.r, pixel.mean.g, pixel.mean.b, pixel.alpha});
     }
     return nb::cast(copied(film.film(), std::move(values), 4));
+}
+
+// What the film shows of each light group, by name.
+nb::dict lights(const PythonFilm& film)
+{
+    nb::dict layers;
+    const std::vector<std::string> groups = getLightGroups(film.film());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < film.pixels().size(); ++i) {
+            const glm::vec3 light = shownOfGroup(film.film(), i, g);
+            values.insert(values.end(), {light.r, light.g, light.b});
+        }
+        layers[groups[g].c_str()] = copied(film.film(), std::move(values), 3);
+    }
+    return layers;
+}
+
+Layer<float> lightCovariance(const PythonFilm& film, std::size_t group, std::size_t other)
+{
+    std::vector<float> values;
+    for (std::size_t i = 0; i < film.pixels().size(); ++i) {
+        const glm::vec3 of = computeGroupCovariance(film.film(), i, group, other);
+        values.insert(values.end(), {of.r, of.g, of.b});
+    }
+    return copied(film.film(), std::move(values), 3);
+}
+
+std::shared_ptr<PythonFilm> regrouped(const PythonFilm& film, const std::vector<std::pair<std::string, std::vector<float>>>& weights)
+{
+    std::vector<LightWeight> lights;
+    for (const auto& [group, factor] : weights) {
+        lights.push_back({group, {factor[0], factor[1], factor[2]}});
+    }
+    return std::make_shared<PythonFilm>(regroup(film.film(), factorsOf("the film", film.film(), lights)), std::nullopt);
 }
 
 nb::object ids(nb::handle self)
@@ -278,6 +314,10 @@ void bindFilm(nb::module_& module)
         .def_prop_ro("variance", &variance, own)
         .def_prop_ro("composite", &composite)
         .def_prop_ro("alpha_rmse", [](const PythonFilm& film) { return computeAlphaRmse(film.film()); })
+        .def_prop_ro("light_groups", [](const PythonFilm& film) { return getLightGroups(film.film()); })
+        .def_prop_ro("lights", &lights)
+        .def("light_covariance", &lightCovariance)
+        .def("regroup", &regrouped)
         .def_prop_ro("ids", &ids)
         .def_prop_ro("surfaces", &surfaces)
         .def_prop_ro("objects", &PythonFilm::objects)

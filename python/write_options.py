@@ -30,6 +30,7 @@ TYPES = {
     "pose_gltf": PLACE,
     "pose_opencv": PLACE,
     "roulette": "str",
+    "light_group": "Union[str, Sequence[str], Dict[str, Union[str, Sequence[str]]]]",
     "rows": "Tuple[int, int]",
     "samples": "Tuple[int, int]",
     "set": "Dict[str, Any]",

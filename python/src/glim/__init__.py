@@ -169,6 +169,52 @@ class Film:
         return self._native.alpha_rmse
 
     @property
+    def lights(self) -> Dict[str, Any]:
+        """Of a film rendered with light_group=...: for each group of lights a (height, width, 3) float32 of its light. Together they are
+        rgb, up to rounding. A copy."""
+        return self._native.lights
+
+    def light_covariance(self, group: str, other: str):
+        """(height, width, 3) float32: the covariance of the light of two groups, or the variance of one; as `variance`. A copy."""
+        return self._native.light_covariance(self._group(group), self._group(other))
+
+    def regroup(self, factors: Optional[Dict[str, Any]] = None, **more: Any) -> "Film":
+        """The film with the light of each group times a factor, a number or R, G, B; of groups that are not named 1. The error of any
+        such film is known, as that of a render with these lights. It has no groups, and is neither resumed nor merged."""
+        weights = []
+        for name, factor in {**(factors or {}), **more}.items():
+            self._group(name)
+            rgb = [float(value) for value in numpy.broadcast_to(numpy.asarray(factor, dtype=float), (3,))]
+            if not all(0 <= value < float("inf") for value in rgb):
+                raise InputError("light group %r: its factor is %r, expected a number or R, G, B, finite and 0 or more." % (name, factor),
+                                 "out-of-range", place=name, value=str(factor))
+            weights.append((name, rgb))
+        return Film(self._native.regroup(weights))
+
+    def _group(self, name):
+        groups = self._native.light_groups
+        if name not in groups:
+            raise InputError("the film has no light group %r; expected %s." % (name, " or ".join(map(repr, groups)) if groups else
+                                                                        "a film rendered with light_group=..."), "unknown-name", place=name)
+        return groups.index(name)
+
+    def mix(self):
+        """In a notebook: the picture above a slider for each light group (needs ipywidgets). The widget's `film` is what it shows."""
+        import ipywidgets
+        picture = ipywidgets.Image(format="png")
+        box = ipywidgets.VBox([picture])
+        sliders = {name: ipywidgets.FloatSlider(1.0, min=0.0, max=4.0, step=0.05, description=name) for name in self._native.light_groups}
+
+        def show(_=None):
+            box.film = self.regroup({name: slider.value for name, slider in sliders.items()})
+            picture.value = box.film._repr_png_()
+        for slider in sliders.values():
+            slider.observe(show, "value")
+        box.children = [picture, *sliders.values()]
+        show()
+        return box
+
+    @property
     def albedo(self):
         """(height, width, 3) float32: mean base colour at the camera rays' hits; a miss counts as 0."""
         return self._native.albedo
@@ -330,10 +376,11 @@ class Film:
 
     def arrays(self) -> Dict[str, Any]:
         """Dense copies of all layers, by name: rgb, alpha, albedo, normal, depth, count and variance, as the properties describe them;
-        composite, denoised, ids.node, ids.mesh and ids.material, and those of `surfaces`, if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
+        composite, denoised, lights.NAME, ids.node, ids.mesh and ids.material, and those of `surfaces`, if the film has them; of its camera K (3x3, pixel corners at whole numbers) and pose
         (4x4, camera to world, glTF's axes)."""
         layers = {name: getattr(self, name) for name in ("rgb", "alpha", "albedo", "normal", "depth", "count", "variance", "composite",
                                                     "denoised")}
+        layers.update({"lights." + name: values for name, values in self.lights.items()})
         layers.update(self.surfaces or {})
         layers.update({"ids." + name: values for name, values in (self.ids or {}).items()})
         camera = self.camera
