@@ -59,6 +59,25 @@ def icosahedron():
                             3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1])
 
 
+def bulb(times):
+    """A sphere of radius 1 of 20 * 4^times triangles: an icosahedron whose triangles are each cut into four, `times` times."""
+    points, indices = icosahedron()
+    for _ in range(times):
+        middles, finer = {}, []
+        for i in range(0, len(indices), 3):
+            corners = indices[i:i + 3]
+            mid = []
+            for a, b in zip(corners, corners[1:] + corners[:1]):
+                side = (min(a, b), max(a, b))
+                if side not in middles:
+                    middles[side] = len(points)
+                    points.append(normalize([x + y for x, y in zip(points[a], points[b])]))
+                mid.append(middles[side])
+            finer += [k for a, b, c in zip(corners, mid, mid[2:] + mid[:2]) for k in (a, b, c)] + mid
+        indices = finer
+    return points, indices
+
+
 def rest_on_face(points, indices, triangle, gap):
     """Turns the solid so that one triangle (negative: from the end) faces straight down, `gap` above y = 0, its centre over the origin."""
     first = 3 * triangle % len(indices)

@@ -5,7 +5,7 @@ import math
 
 from .gltf_document import Document, look_at
 from .material_scenes import MATERIAL_SCENES
-from .shapes import block, brilliant, icosahedron, rest_on_face, turn
+from .shapes import block, brilliant, bulb, icosahedron, rest_on_face, turn
 from .showcase import showcase
 
 WHITE, RED, GREEN = (0.73, 0.73, 0.71), (0.63, 0.065, 0.05), (0.14, 0.45, 0.091)
@@ -105,6 +105,47 @@ def furnace():
     return document
 
 
+def living_room(document):
+    """Closed on all sides, 4.4 m wide, 2.6 m high and 5 m long, with the camera in a corner, a table and a cupboard."""
+    names = ("plaster", (0.75, 0.74, 0.72)), ("oak", (0.52, 0.37, 0.23)), ("ochre", (0.66, 0.45, 0.18)), ("teal", (0.16, 0.4, 0.42))
+    plaster, oak, ochre, teal = (document.material(*name) for name in names)
+    document.camera("corner", (1.9, 1.5, 2.2), (-0.5, 0.95, -0.9), 62.0, 1.0)
+    x, y, z = 2.2, 2.6, 2.5
+    document.quad("floor", [[-x, 0, z], [x, 0, z], [x, 0, -z], [-x, 0, -z]], oak)
+    document.quad("ceiling", [[-x, y, -z], [x, y, -z], [x, y, z], [-x, y, z]], plaster)
+    document.quad("back", [[-x, 0, -z], [x, 0, -z], [x, y, -z], [-x, y, -z]], plaster)
+    document.quad("front", [[x, 0, z], [-x, 0, z], [-x, y, z], [x, y, z]], plaster)
+    document.quad("left", [[-x, 0, z], [-x, 0, -z], [-x, y, -z], [-x, y, z]], ochre)
+    document.quad("right", [[x, 0, -z], [x, 0, z], [x, y, z], [x, y, -z]], plaster)
+    points, indices = block((-0.6, 0.0, -0.4), (0.6, 0.7, 0.4))
+    document.shape("table", turn(points, 12.0, (-0.6, 0.0, -0.9)), indices, teal)
+    document.shape("cupboard", *block((-2.15, 0.0, 0.2), (-1.6, 1.8, 1.4)), plaster)
+
+
+def closed_room():
+    document = Document()
+    living_room(document)
+    lamp, h = document.material("lamp", emission=(9.0, 8.4, 7.2)), 0.35
+    document.quad("lamp", [[-h, 2.59, -h], [h, 2.59, -h], [h, 2.59, h], [-h, 2.59, h]], lamp)
+    return document
+
+
+def shaded_lamp():
+    """In the same room, above the table: a bulb of 1,280 triangles in a shade that is open at both ends."""
+    document = Document()
+    living_room(document)
+    points, indices = bulb(3)
+    x, y, z, r = -0.6, 1.65, -0.9, 0.06
+    document.shape("bulb", [[x + r * a, y + r * b, z + r * c] for a, b, c in points], indices,
+                   document.material("bulb", emission=(220.0, 190.0, 140.0)))
+    sides = 24
+    rims = [[x + radius * math.cos(2.0 * math.pi * i / sides), height, z + radius * math.sin(2.0 * math.pi * i / sides)]
+            for radius, height in ((0.36, 1.6), (0.16, 1.84)) for i in range(sides)]
+    shade = [k for i in range(sides) for j in [(i + 1) % sides] for k in (i, sides + i, j, j, sides + i, sides + j)]
+    document.shape("shade", rims, shade, document.material("felt", (0.35, 0.3, 0.25), double_sided=True))
+    return document
+
+
 def veach_mis():
     """Eric Veach and Leonidas Guibas, Optimally Combining Sampling Techniques, 1995, figure 2, as commonly copied."""
     document = Document()
@@ -156,4 +197,4 @@ def many_lights():
 
 SMALL_SCENES = {**MATERIAL_SCENES, **{function.__name__: function for function in (
     cornell, cornell_spheres, cornell_mirror_glass, cornell_gems, light_point, light_spot, light_directional, furnace,
-    veach_mis, many_lights, showcase)}}
+    closed_room, shaded_lamp, veach_mis, many_lights, showcase)}}
