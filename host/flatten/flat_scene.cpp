@@ -73,9 +73,9 @@ vec3 absorptionOf(const FlatScene& scene, std::uint32_t medium) { return scene.m
 std::uint64_t sizeInBytes(const FlatScene& scene)
 {
     return bytesOf(scene.nodes) + bytesOf(scene.primitiveRefs) + bytesOf(scene.triangles) + bytesOf(scene.vertices) +
-           bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.principled) +
-           bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.scattering) + bytesOf(scene.albedos) +
-           bytesOf(scene.caustics) + bytesOf(scene.instances) + bytesOf(scene.motions) + textureBytes(scene);
+           bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.lightNodes) + bytesOf(scene.lightPowers) +
+           bytesOf(scene.principled) + bytesOf(scene.layers) + bytesOf(scene.textures) + bytesOf(scene.media) + bytesOf(scene.scattering) +
+           bytesOf(scene.albedos) + bytesOf(scene.caustics) + bytesOf(scene.instances) + bytesOf(scene.motions) + textureBytes(scene);
 }
 
 std::uint64_t textureBytes(const FlatScene& scene)

@@ -88,6 +88,7 @@ struct FlatScene {
     std::vector<LightMark> lightMarks;                                // in the references; not on the device
     std::vector<std::shared_ptr<const EmissionMeans>> emissionMeans;  // not on the device
     std::vector<LightNode> lightNodes;
+    std::vector<uvec4> lightPowers;               // behind the lights, in the same buffer; empty without kFeatureLightClusters
     std::uint32_t finiteLights = 0;               // the first lights
     float infiniteImportance = 0.0F;              // as in RenderParameters
     FeatureMask features = 0;                     // kFeatureSpheres ...: what the scene needs

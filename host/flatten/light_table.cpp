@@ -379,6 +379,23 @@ private:
         powers_.push_back(power);
     }
 
+    // Half of the diagonal of the box of all triangles and spheres outside of shared meshes.
+    float sceneRadius() const
+    {
+        glm::vec3 low(INFINITY), high(-INFINITY);
+        for (const Triangle& triangle : primitives_.triangles) {
+            for (const glm::vec3& vertex : triangle.vertices) {
+                low = glm::min(low, vertex);
+                high = glm::max(high, vertex);
+            }
+        }
+        for (std::size_t i = 0; i < primitives_.spheres.size(); ++i) {
+            low = glm::min(low, primitives_.spheres[i].center - primitives_.spheres[i].radius);
+            high = glm::max(high, primitives_.spheres[i].center + primitives_.spheres[i].radius);
+        }
+        return 0.5F * glm::length(high - low);
+    }
+
     // In the order of the tree's leaves.
     void pushFinite()
     {
@@ -390,8 +407,10 @@ private:
             bounds.push_back(finite_[i].bounds);
             bounds.back().power = std::max(static_cast<float>(powers_[i] / strongest), 1e-30F);
         }
-        const LightTree tree = buildLightTree(bounds);
+        const LightTree tree = buildLightTree(bounds, sceneRadius());
         flat_.lightNodes = tree.nodes;
+        flat_.lightPowers = tree.powers;
+        flat_.features |= tree.powers.empty() ? 0U : kFeatureLightClusters;
         for (const std::uint32_t i : tree.order) {
             const FlatLight& light = finite_[i].light;
             flat_.lights.push_back(light);

@@ -9,6 +9,17 @@ namespace glim {
 namespace {
 
 constexpr std::uint32_t kBins = 16;
+// How many lights a cluster has. With fewer, the way down is as short.
+constexpr std::uint32_t kMinClusterLights = 100, kMaxClusterLights = 1U << 14;
+// Squared radii of its lights over its own, at least. A ball of small triangles has 4.5, an eighth of it 2. Lamps that are apart have less:
+// they are seldom small together.
+constexpr float kClusterDensity = 2.0F;
+// Its radius over that of the scene, at most. To many points a larger one is not small, and lanes of both kinds cost more than one.
+constexpr float kMaxClusterSize = 0.04F;
+constexpr float kClusterPower = (1U << 24) - 2 * kMaxClusterLights;  // on each side, at most
+// Of a light's power it counts this much on every side: the point does not see all lights of a cluster from the same direction.
+constexpr float kClusterFloor = 0.03125F;
+constexpr float kShareEverywhere = 0.6667F;     // of a light without a normal: the inverse of the mean sum of a direction's components
 constexpr std::uint32_t kMaxUnevenLevels = 32;  // below these, halves have equal numbers of lights: no tree is deeper than 64
 
 struct Item {
@@ -72,7 +83,8 @@ float computeCost(const Cluster& cluster)
 
 class Builder {
 public:
-    explicit Builder(std::span<const LightBounds> lights)
+    Builder(std::span<const LightBounds> lights, float sceneRadius)
+        : maxClusterRadius_(kMaxClusterSize * sceneRadius)
     {
         items_.reserve(lights.size());
         for (const LightBounds& light : lights) {
@@ -97,10 +109,42 @@ public:
         for (const Item& item : items_) {
             tree.order.push_back(item.light);
         }
+        if (std::ranges::any_of(tree.nodes, [](const LightNode& node) { return (node.children & kClusterNode) != 0; })) {
+            tree.powers.resize(2);
+            addPowers(tree, 0, count);
+        }
         return tree;
     }
 
 private:
+    // Of the lights below a node, up to `end`: the sums before the next light.
+    void addPowers(LightTree& tree, std::uint32_t at, std::uint32_t end) const
+    {
+        const LightNode& node = tree.nodes[at];
+        const std::uint32_t first = node.children & ((1U << kLightChildBits) - 1U);
+        const std::uint32_t count = (node.children & ~(kTwoSidedNode | kClusterNode)) >> kLightChildBits;
+        if ((node.children & kClusterNode) == 0) {
+            for (std::uint32_t i = 0; i < count; ++i) {
+                addPowers(tree, first + i, i + 1 < count ? tree.nodes[first + i + 1].firstLight : end);
+            }
+        }
+        const bool isCluster = (node.children & kClusterNode) != 0;
+        for (std::uint32_t i = node.firstLight; i < end && (isCluster || count == 0); ++i) {
+            const LightBounds& light = items_[i].bounds;
+            const float unit = isCluster ? kClusterPower * (light.power / node.power) / (1.0F + kClusterFloor) : 0.0F;
+            const bool everywhere = light.axis == vec3(0.0F);
+            const auto side = [&](float cosine) {
+                const float share = everywhere ? kShareEverywhere : std::max(0.0F, cosine) + kClusterFloor;
+                return isCluster ? 1U + static_cast<std::uint32_t>(unit * share) : 0U;
+            };
+            const auto sides = [&](const vec3& n) { return uvec4(side(n.x), side(n.y), side(n.z), 0); };
+            const vec3 front = light.twoSided ? glm::abs(light.axis) : light.axis;
+            const std::size_t before = tree.powers.size() - 2;
+            tree.powers.push_back(tree.powers[before] + sides(front));
+            tree.powers.push_back(tree.powers[before + 1] + sides(light.twoSided ? front : -front));
+        }
+    }
+
     // A node of the binary tree.
     struct Half {
         LightNode node;
@@ -122,6 +166,14 @@ private:
                 at};
     }
 
+    // What a child of half `binary` costs; below 0 if it stays whole, as a node where the way down can end: a cluster that is not within
+    // another.
+    float costOfWhole(std::uint32_t child, std::uint32_t binary) const
+    {
+        const bool staysWhole = (halves_[child].node.children & ~halves_[binary].node.children & kClusterNode) != 0;
+        return staysWhole ? -1.0F : halves_[child].cost;
+    }
+
     // Gives node `wide` of `nodes` the children of half `binary`; those that cost most are replaced by their own while there is room.
     void collapse(std::vector<LightNode>& nodes, std::size_t wide, std::uint32_t binary)
     {
@@ -130,8 +182,8 @@ private:
         }
         std::vector<std::uint32_t> children{halves_[binary].child, halves_[binary].child + 1};
         while (children.size() < kMaxLightChildren) {
-            const auto dearest = std::ranges::max_element(children, {}, [this](std::uint32_t i) { return halves_[i].cost; });
-            if (halves_[*dearest].child == 0) {
+            const auto dearest = std::ranges::max_element(children, {}, [&](std::uint32_t i) { return costOfWhole(i, binary); });
+            if (halves_[*dearest].child == 0 || costOfWhole(*dearest, binary) < 0.0F) {
                 break;
             }
             const std::uint32_t child = halves_[*dearest].child;
@@ -170,22 +222,28 @@ private:
         const float length = glm::length(cluster.axes);
         const vec3 axis = length > 0.0F ? cluster.axes / length : vec3(0, 0, 1);
         float cosNormals = length > 0.0F ? 1.0F : -1.0F;
+        bool isCluster = cluster.count >= kMinClusterLights && cluster.count <= kMaxClusterLights;
+        float radii2 = 0.0F;
         for (std::uint32_t i = begin; i < end; ++i) {
             const LightBounds& light = items_[i].bounds;
             const float cosine = glm::dot(axis, light.axis);
             cosNormals = std::min(cosNormals, light.axis == vec3(0.0F) ? -1.0F : cluster.twoSided ? std::abs(cosine) : cosine);
             // A light that shines both ways among some that do not shines against the axis too.
             cosNormals = light.twoSided && !cluster.twoSided ? -1.0F : cosNormals;
+            isCluster = isCluster && light.cosEmission == 0.0F;
+            radii2 += light.radius * light.radius;
         }
         cosNormals = std::clamp(cosNormals - 1e-6F, -1.0F, 1.0F);  // the rounding of axis and dot
         const vec3 half = 0.5F * (cluster.high - cluster.low);
+        const float radius = glm::length(half);
+        isCluster = isCluster && radii2 >= kClusterDensity * radius * radius && radius <= maxClusterRadius_;
         return {cluster.low + half,
-                glm::length(half),
+                radius,
                 axis,
                 cluster.power,
                 cosNormals,
                 cluster.cosEmission,
-                cluster.twoSided ? kTwoSidedNode : 0U,
+                (cluster.twoSided ? kTwoSidedNode : 0U) | (isCluster ? kClusterNode : 0U),
                 begin};
     }
 
@@ -273,12 +331,13 @@ private:
         }
     }
 
+    float maxClusterRadius_;
     std::vector<Item> items_;
     std::vector<Half> halves_;
 };
 
 }  // namespace
 
-LightTree buildLightTree(std::span<const LightBounds> lights) { return Builder(lights).build(); }
+LightTree buildLightTree(std::span<const LightBounds> lights, float sceneRadius) { return Builder(lights, sceneRadius).build(); }
 
 }  // namespace glim

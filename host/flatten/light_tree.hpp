@@ -22,9 +22,11 @@ struct LightBounds {
 struct LightTree {
     std::vector<LightNode> nodes;      // as scene_types.h says
     std::vector<std::uint32_t> order;  // the light at each leaf, from the first to the last
+    std::vector<uvec4> powers;         // as scene_types.h says; empty without clusters
 };
 
-// Takes at least one light. Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, section 4.
-LightTree buildLightTree(std::span<const LightBounds> lights);
+// Takes at least one light. sceneRadius: half of the diagonal of the scene's box, metres. Conty Estevez and Kulla, "Importance Sampling of
+// Many Lights with Adaptive Tree Splitting", 2018, section 4.
+LightTree buildLightTree(std::span<const LightBounds> lights, float sceneRadius);
 
 }  // namespace glim

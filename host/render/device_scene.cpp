@@ -42,8 +42,9 @@ LastingBuffers upload(Device& device, const FlatScene& scene, LastingBuffers bef
             upload(device, "scene's motions", scene.motions, std::move(before.motions))};
 }
 
-// The materials and what lies behind them, as texels.
-std::vector<uvec4> materialTexels(const FlatScene& scene)
+// Arrays of whole texels, one behind the other.
+template <class... T>
+std::vector<uvec4> toTexels(const std::vector<T>&... arrays)
 {
     std::vector<uvec4> texels;
     const auto append = [&texels](const auto& values) {
@@ -53,12 +54,7 @@ std::vector<uvec4> materialTexels(const FlatScene& scene)
             std::memcpy(&texels[before], values.data(), values.size() * sizeof(values[0]));
         }
     };
-    append(scene.materials);
-    append(scene.principled);
-    append(scene.layers);
-    append(scene.textures);
-    append(scene.media);
-    append(scene.scattering);
+    (append(arrays), ...);
     return texels;
 }
 
@@ -110,8 +106,9 @@ void DeviceTextures::addTo(std::map<std::uint32_t, const Buffer*>& buffers) cons
 
 DeviceScene::DeviceScene(Device& device, const FlatScene& scene, LastingBuffers lasting)
     : lasting_(upload(device, scene, std::move(lasting))),
-      materials_(uploaded(device, "scene's materials", BufferKind::Texel, materialTexels(scene))),
-      lights_(uploaded(device, "scene's lights", BufferKind::Texel, scene.lights)),
+      materials_(uploaded(device, "scene's materials", BufferKind::Texel,
+                          toTexels(scene.materials, scene.principled, scene.layers, scene.textures, scene.media, scene.scattering))),
+      lights_(uploaded(device, "scene's lights", BufferKind::Texel, toTexels(scene.lights, scene.lightPowers))),
       lightNodes_(uploaded(device, "scene's light tree", BufferKind::Texel, scene.lightNodes)),
       albedos_(uploaded(device, "albedo table", BufferKind::Texel, scene.albedos)),
       caustics_(uploaded(device, "targets of light paths", BufferKind::Texel, scene.caustics))

@@ -4,6 +4,7 @@
 
 #include "lib/hash.glsl"
 #include "lib/light_importance.glsl"
+#include "light_cluster.glsl"
 #include "parameters.glsl"
 #include "scene.glsl"
 
@@ -14,14 +15,9 @@ struct LightContext {
     vec3 receiverNormal;  // ns as PathState has it, to the same bits in both cases; 0 at a surface that transmits, where both sides count
 };
 
-struct LightChoice {
-    uint light;
-    float probability;
-};
-
 uint childCount(LightNode node)
 {
-    return (node.children & ~kTwoSidedNode) >> kLightChildBits;
+    return (node.children & ~(kTwoSidedNode | kClusterNode)) >> kLightChildBits;
 }
 
 // Levels of the tree that one random word is enough for: 24 bits, of which a choice among eight takes three.
@@ -33,7 +29,8 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
     LightNode node = fetchLightNode(0u);
     float u = unitFloat(bits), probability = 1.0;
     bool draws = light == kNoLightIndex;
-    uint level = 0u;
+    uint level = 0u, sibling = 0u;
+    if (!isSmallCluster(node, context.p)) {
     do {
         uint first = node.children & ((1u << kLightChildBits) - 1u), count = childCount(node);
         float importances[kMaxLightChildren];
@@ -63,13 +60,22 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
         } while (++i < count);
         u = min((target - before) / chosen, 0.99999994);
         probability *= chosen / sum;
+        sibling = at + 1u < count ? first + at + 1u : sibling;
         node = fetchLightNode(first + at);
         ++level;
         if (level % kLevelsPerWord == 0u) {
             u = unitFloat(hash4(uvec4(bits, level, 0u, 0u)).x);
         }
-    } while (childCount(node) > 0u);
-    return LightChoice(node.firstLight, probability);
+    } while (childCount(node) > 0u && !isSmallCluster(node, context.p));
+    }
+    LightChoice choice = LightChoice(node.firstLight, probability);
+    if (hasFeature(kFeatureLightClusters) && childCount(node) > 0u) {
+        uint end = sibling > 0u ? fetchLightNode(sibling).firstLight : render.finiteLights;
+        LightCluster cluster = LightCluster(node.firstLight, end, context.p - node.center);
+        choice = chooseInCluster(cluster, u, light);
+        choice.probability *= probability;
+    }
+    return choice;
 }
 
 // Probability of choosing among the finite lights: their importance against that of the infinite ones. Neither has less than .1 where there

@@ -169,6 +169,12 @@ uint lightGroupOf(uint word)
     return hasFeature(kFeatureLightGroups) ? word >> kLightGroupShift : 0u;
 }
 
+// The sums of power before finite light `light` (scene_types.h), on the front of the axes or on their back.
+uvec3 fetchLightPowers(uint lightCount, uint light, uint back)
+{
+    return texelFetch(sceneLights, int(lightCount * kLightTexels + 2u * light + back)).xyz;
+}
+
 LightNode fetchLightNode(uint node)
 {
     int at = int(node * kLightNodeTexels);

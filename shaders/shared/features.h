@@ -49,7 +49,8 @@ GLIM_SHARED_BEGIN
     FEATURE(Scattering, 37, "scattering volumes") /* with Media */ \
     FEATURE(Catcher, 38, "shadow catchers") \
     FEATURE(Motion, 39, "moving nodes") /* while the shutter is open; with Instances */ \
-    FEATURE(LightGroups, 40, "light groups")
+    FEATURE(LightGroups, 40, "light groups") \
+    FEATURE(LightClusters, 41, "clusters of lights") /* lamps of many triangles; with LightTree */
 // clang-format on
 
 #ifdef __cplusplus

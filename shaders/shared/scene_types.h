@@ -260,6 +260,11 @@ struct FlatLight {
 
 // A node of the light tree: bounds of the lights below it (lib/light_importance.glsl). Node 0 is the root. The children of a node follow
 // one another, in the order of their lights.
+//
+// From where a node with kClusterNode is small, the way down ends there, and a light is chosen by its power towards the point
+// (access/light_cluster.glsl). These powers lie behind the lights: two texels for each finite light, and two more. The first has sums over
+// all lights before this one, of power times the positive part of the normal's x, y and z; the second, of -x, -y and -z. They are whole
+// numbers, modulo 2^32, in units of which a cluster has less than 2^24 on each side.
 struct LightNode {
     vec3 center;  // of a sphere around the lights
     float radius;
@@ -267,13 +272,14 @@ struct LightNode {
     float power;        // sum of radiance * projected area, or intensity, W/sr
     float cosNormals;   // of the cone's half angle
     float cosEmission;  // of the angle from a normal or a direction at which the last light ends
-    uint children;      // the first one | their number << kLightChildBits | kTwoSidedNode; a leaf has none
+    uint children;      // the first one | their number << kLightChildBits | kTwoSidedNode | kClusterNode; a leaf has none
     uint firstLight;    // below it; of a leaf: its light
 };
-GLIM_CONST uint kLightChildBits = 27u;
+GLIM_CONST uint kLightChildBits = 26u;
 GLIM_CONST uint kMaxLightChildren = 8u;
 GLIM_CONST uint kTwoSidedNode = 0x80000000u;  // each of its lights emits from both sides
-GLIM_CONST float kUniformShare = 0.1f;        // of the choices between finite lights that ignore importance
+GLIM_CONST uint kClusterNode = 0x40000000u;
+GLIM_CONST float kUniformShare = 0.1f;  // of the choices between finite lights that ignore importance
 
 // Where light paths are aimed (kFeatureCaustics): kMaxCausticTargets texels, a bounding sphere each (centre, radius); another one around
 // the whole scene; then for each light but the environment the random words that choose it (first, last, where to search: first entry, last

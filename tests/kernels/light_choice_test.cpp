@@ -308,6 +308,66 @@ TEST(LightChoiceTest, FollowsWhatArrivesBetterThanPower)
     }
 }
 
+// A ball of 1,280 triangles of 5 cm radius at (0, 2, 0), of which every other one in x is half as bright; and a lamp beside it.
+Scene bulb(bool twoSided)
+{
+    Scene scene = makeTestScene({}, {});
+    scene.materials.resize(3);
+    Triangles shades[2];
+    for (Triangle triangle : icosphere(3)) {
+        const bool dim = triangle.vertices[0].x > 0.0F;
+        for (vec3& vertex : triangle.vertices) {
+            vertex = 0.05F * vertex + vec3(0, 2, 0);
+        }
+        shades[dim ? 1 : 0].push_back(triangle);
+    }
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        scene.materials[i + 1].emission = vec3(i == 0 ? 2.0F : 1.0F);
+        scene.materials[i + 1].doubleSided = twoSided;
+        addMesh(scene, shades[i], i + 1);
+    }
+    addMesh(scene, {{{vec3(-3, 0, -3), vec3(-3, 0, 3), vec3(3, 0, 3)}}});
+    scene.lights.push_back({"", PunctualLight::Kind::Point, {1, 2, 0}, {0, 0, -1}, vec3(1e-4F)});
+    return scene;
+}
+
+// From afar the way down the tree ends at the bulb; from near at parts of it, or not before its lights; along an axis two sides have no
+// part.
+TEST(LightChoiceTest, ALampOfManyTrianglesCostsAsOne)
+{
+    const std::vector<Receiver> receivers = {{{0, 0, 0}, {0, 1, 0}},      {{0.7F, 0.4F, 1.1F}, {0, 1, 0}},  {{-1, 2, 0}, {1, 0, 0}},
+                                             {{-3, 3, -2}, vec3(0.0F)},   {{0.1F, 1.9F, 0.1F}, {0, 1, 0}},  {{0, 1.7F, 0.02F}, {0, 1, 0}},
+                                             {{0, 2, 0.01F}, vec3(0.0F)}, {{1e6F, 2e6F, -1e6F}, {0, -1, 0}}};
+    for (const bool twoSided : {false, true}) {
+        const Scene scene = bulb(twoSided);
+        EXPECT_TRUE((SceneOnDevice(scene).flat.features & kFeatureLightClusters) != 0);
+        expectDistribution(twoSided ? "two-sided bulb" : "bulb", scene, receivers);
+    }
+    EXPECT_TRUE((SceneOnDevice(randomLights(200)).flat.features & kFeatureLightClusters) == 0) << "nowhere small, but code for them";
+}
+
+// By its power towards the point. By power alone a ball has 5 / 3: half of its triangles face away.
+TEST(LightChoiceTest, ALampOfManyTrianglesIsChosenByItsSideTowardsThePoint)
+{
+    const SceneOnDevice onDevice(bulb(false));
+    std::vector<dvec3> places, normals;
+    std::vector<double> powers;
+    for (const FlatLight& light : onDevice.flat.lights) {
+        const bool isTriangle = light.kind == kTriangleLight;
+        places.push_back(dvec3(light.position) + (isTriangle ? (dvec3(light.edge1) + dvec3(light.edge2)) / 3.0 : dvec3(0.0)));
+        normals.push_back(isTriangle ? glm::normalize(glm::cross(dvec3(light.edge1), dvec3(light.edge2))) : dvec3(0.0));
+        powers.push_back(isTriangle ? static_cast<double>(light.size) * static_cast<double>(light.intensity.r) : 1e-9);
+    }
+    const std::vector<Receiver> receivers = {{{0, 0, 0}, {0, 1, 0}}, {{0.7F, 0.4F, 1.1F}, {0, 1, 0}}, {{-2, 0, 2}, {0, 1, 0}}};
+    const std::vector<std::vector<double>> found = probabilities(onDevice, receivers);
+    for (std::size_t r = 0; r < receivers.size(); ++r) {
+        const Variances variances = variancesOf(places, normals, powers, receivers[r], found[r]);
+        printHardCase("H14", "a bulb: relative variance of one choice", 1280, figure(variances.tree),
+                      "by power: " + figure(variances.power));
+        EXPECT_GT(variances.power, 1.5 * variances.tree);
+    }
+}
+
 // What went wrong in the trees of Cycles and pbrt-v4, one case each; each would give a probability that is not finite or adds up wrongly.
 struct Trap {
     const char* name;

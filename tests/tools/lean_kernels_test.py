@@ -49,6 +49,7 @@ USERS = {
     "Caustics": ["shade_surface"],
     "RectangleLights": ["shade_surface"],
     "LightTree": ["shade_surface"],
+    "LightClusters": ["shade_surface"],
     "Instances": ["trace_closest", "trace_shadow", "shade_surface"],
     "Motion": ["trace_closest", "trace_shadow", "shade_surface"],
     "LightsInMedia": [],  # trace_light_paths
@@ -58,6 +59,7 @@ USERS = {
 }
 # What a feature needs before it has any code.
 NEEDS = {
+    "LightClusters": ["LightTree"],
     "Textures": ["Principled"],
     "NormalMaps": ["Principled", "Textures"],
     "VertexColors": ["Principled"],
