@@ -21,6 +21,8 @@ set(tooSlowUnderAdverse
     CoplanarTest.*
     KernelRegistersTest.*
     LeavePiecesTest.*
+    LightChoiceTest.ALampOfManyTrianglesCostsAsOne
+    LightChoiceTest.ALampOfManyTrianglesIsChosenByItsSideTowardsThePoint
     LightChoiceTest.CertainLightsLackTheirProbability
     LightChoiceTest.DrawsWithTheProbabilitiesThatItStates
     LightChoiceTest.FollowsWhatArrivesBetterThanPower
@@ -45,6 +47,7 @@ set(tooSlowUnderAdverse
     Rows/InstancesTest.*/Small
     Scenes/GoldenTest.*/alpha
     Scenes/GoldenTest.*/car_paint
+    Scenes/GoldenTest.*/closed_room
     Scenes/GoldenTest.*/cloth
     Scenes/GoldenTest.*/cornell_gems
     Scenes/GoldenTest.*/cornell_mirror_glass
@@ -55,6 +58,7 @@ set(tooSlowUnderAdverse
     Scenes/GoldenTest.*/many_lights
     Scenes/GoldenTest.*/materials
     Scenes/GoldenTest.*/normal_map
+    Scenes/GoldenTest.*/shaded_lamp
     Scenes/GoldenTest.*/textures
     Scenes/GoldenTest.*/veach_mis
     Scenes/GoldenTest.*/wax

@@ -71,9 +71,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GoldenTest,
                          testing::Values(Golden{"cornell", true}, Golden{"cornell_spheres", true}, Golden{"cornell_mirror_glass", false},
                                          Golden{"cornell_gems", false}, Golden{"light_point", true}, Golden{"light_spot", true},
                                          Golden{"light_directional", true}, Golden{"many_lights", true}, Golden{"veach_mis", true},
-                                         Golden{"furnace", true}, Golden{"materials", true, 64}, Golden{"textures", true},
-                                         Golden{"normal_map", true}, Golden{"alpha", true}, Golden{"liquid", false}, Golden{"wax", false},
-                                         Golden{"product", false}, Golden{"car_paint", true}, Golden{"cloth", true}),
+                                         Golden{"furnace", true}, Golden{"closed_room", true}, Golden{"shaded_lamp", false},
+                                         Golden{"materials", true, 64}, Golden{"textures", true}, Golden{"normal_map", true},
+                                         Golden{"alpha", true}, Golden{"liquid", false}, Golden{"wax", false}, Golden{"product", false},
+                                         Golden{"car_paint", true}, Golden{"cloth", true}),
                          [](const testing::TestParamInfo<Golden>& golden) { return std::string(golden.param.scene); });
 
 }  // namespace
