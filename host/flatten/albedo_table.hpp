@@ -17,4 +17,8 @@ std::vector<uvec4> makeSheenTable();
 // (scene_types.h).
 std::vector<uvec4> makeAnisotropicAlbedoTable();
 
+// Of the GGX lobes of an interface that reflects and refracts: kGlassAlbedos texels, and a texel of averages for each alpha and index
+// (scene_types.h).
+std::vector<uvec4> makeGlassAlbedoTable();
+
 }  // namespace glim

@@ -29,6 +29,10 @@ FeatureMask findLayers(const Material& m)
            (m.transmission > 0.0F ? kFeatureTransmission : 0U) | (m.diffuseTransmission > 0.0F ? kFeatureDiffuseTransmission : 0U);
 }
 
+bool isSmooth(const Material& m) { return m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness]; }
+
+bool mayBeRough(const Material& m) { return !isSmooth(m) || m.anisotropy > 0.0F || m.glossy; }
+
 // A smooth solid dielectric, tinted by the base colour, and nothing else.
 bool isSmoothGlass(const Material& m)
 {
@@ -258,7 +262,9 @@ private:
         data.medium = medium;
         data.scattersThin = m.scattersThin ? 1 : 0;
         data.backscattered = m.scattersThin ? 0.5F - 0.5F * m.scatterAnisotropy : 0.0F;
-        features_ |= findLayers(m) & ~(chooseMaterialType(m) == kPrincipled ? 0U : kFeatureTransmission);
+        const bool principled = chooseMaterialType(m) == kPrincipled;
+        features_ |= findLayers(m) & ~(principled ? 0U : kFeatureTransmission);
+        features_ |= principled && m.transmission > 0.0F && mayBeRough(m) ? kFeatureRoughTransmission : 0U;
         return data;
     }
 
@@ -323,8 +329,6 @@ private:
     Images images_;                                       // that textures use
     std::uint32_t texelCount_ = 0;                        // of these
 };
-
-bool isSmooth(const Material& m) { return m.roughness * m.roughness < kMirrorAlpha && !m.textures[kSlotMetallicRoughness]; }
 
 }  // namespace
 

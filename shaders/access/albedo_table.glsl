@@ -109,4 +109,40 @@ vec2 fetchAverageAlbedo(vec2 alpha)
     return vec2(1.0 - entry.x * alpha.x - entry.y, entry.y);
 }
 
+// Rows of the table of interfaces that refract (scene_types.h), alpha in [kMinAlpha, 1]: between which four numbers lie.
+struct GlassRows {
+    int first;
+    float alpha, index;  // weights of the others
+};
+
+GlassRows glassRows(float alpha, float eta)
+{
+    float r = (eta - 1.0) / (eta + 1.0);
+    float root = max(sqrt(sqrt(abs(r))) - kMinGlassRoot, 0.0) * (1.0 / (kMaxGlassRoot - kMinGlassRoot));
+    AlbedoCell index = albedoCell(root, r > 0.0 ? kGlassDenser : kGlassThinner), row = albedoCell(sqrt(alpha), kGlassAlphas);
+    return GlassRows(row.first + (index.first + (r > 0.0 ? 0 : int(kGlassDenser))) * int(kGlassAlphas), row.weight, index.weight);
+}
+
+// t, p and q at a cosine. Trilinear.
+vec3 fetchGlassAlbedo(float alpha, float eta, float cosine)
+{
+    GlassRows rows = glassRows(alpha, eta);
+    AlbedoCell column = albedoCell(sqrt(sqrt(cosine)), kGlassCosines);
+    const int kRow = int(kGlassCosines), kIndex = kRow * int(kGlassAlphas);
+    int at = int(kFirstGlassAlbedo) + column.first + rows.first * kRow;
+    vec4 a = mixTexels(at, 1, column.weight), b = mixTexels(at + kRow, 1, column.weight);
+    vec4 c = mixTexels(at + kIndex, 1, column.weight), d = mixTexels(at + kIndex + kRow, 1, column.weight);
+    vec4 lower = a + (b - a) * rows.alpha, upper = c + (d - c) * rows.alpha;
+    return (lower + (upper - lower) * rows.index).xyz;
+}
+
+// Their averages, and for eta above 1 the share for glassReflects.
+vec4 fetchAverageGlassAlbedo(float alpha, float eta)
+{
+    GlassRows rows = glassRows(alpha, eta);
+    int at = int(kFirstGlassAlbedo + kGlassAlbedos) + rows.first;
+    vec4 lower = mixTexels(at, 1, rows.alpha), upper = mixTexels(at + int(kGlassAlphas), 1, rows.alpha);
+    return lower + (upper - lower) * rows.index;
+}
+
 #endif

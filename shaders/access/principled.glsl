@@ -5,6 +5,7 @@
 // BSDFs by `metallic` is exactly one GGX lobe with mixed F0 and F90, and a diffuse lobe of colour base (1 - metallic). The specification's
 // own coupling of the two reflects up to 1.68 of the light; here the diffuse lobe gets what the interface lets through both ways, and
 // light that single scattering loses between microfacets comes back (lib/bsdf/multiple_scattering.glsl). Both make up the diffuse lobe.
+// At an interface that transmits, what microfacets lose leaves on both sides, by reciprocal diffuse lobes too.
 // A coat or sheen leaves to what is below the lesser of 1 - E(wo) and 1 - E(wi): reciprocal, and no energy is created over any base.
 #ifndef GLIM_ACCESS_PRINCIPLED
 #define GLIM_ACCESS_PRINCIPLED
@@ -53,6 +54,8 @@ struct Principled {
     float metallic;
     float eta;
     bool solid;             // refracts; else a thin wall
+    float glass;            // share of the part that is not metal that transmits at rough microfacets
+    vec3 glassAbove, glassBelow;  // of light scattered more than once there: what does not depend on wi
     vec3 film;              // share, index, thickness in nm
     InterfaceFresnel fresnel;  // at wo
     // What lies below it.
@@ -60,6 +63,7 @@ struct Principled {
     float baseFms;           // its multipleScatteringFresnel
     vec3 scattered, diffuse; // of the diffuse lobe: what does not depend on wi (evalAbove)
     float scatteredShare;    // of its samples: by sampleMultipleScattering, else by the cosine
+    float throughShare;      // the same on the far side
     float scatteredAlpha;
     vec3 diffuseThrough;     // of the cosine lobe on the far side
     AlbedoRow row;           // of a lobe of one width
@@ -226,6 +230,34 @@ void setTransmission(inout Principled p, PrincipledInput m)
     float share = p.isSmooth && !p.solid && m.passesStraight ? 0.0 : m.layers.transmission;
     share *= m.layers.scattersThin != 0u ? 1.0 - m.layers.diffuseTransmission : 1.0;
     p.transmitted = m.baseColor * share * (1.0 - m.data.metallic);
+    p.glass = hasFeature(kFeatureRoughTransmission) && !p.isSmooth ? share : 0.0;
+}
+
+// What single scattering loses of light at a direction on the upper side, where the index beyond over that before is eta. `ab`: fetchAlbedo
+// there. A thin wall transmits by the lobe of its reflection.
+vec3 lostByGlass(Principled p, vec2 ab, float cosine, float eta)
+{
+    return p.solid ? lostLight(fetchGlassAlbedo(p.scatteredAlpha, eta, cosine), p.dielectricF0, p.dielectricF90) : vec3(1.0 - ab.x - ab.y);
+}
+
+// Sets the lobes of light that glass scatters more than once, and returns the share lost of light from wo. `reflected`, `through`: their
+// albedos. Those of a thin wall's reflection are in `scattered`; `fms` is the share of lost light there.
+vec3 setGlass(inout Principled p, vec2 ab, vec2 average, vec3 fms, float cosine, out vec3 reflected, out vec3 through)
+{
+    vec3 lost = lostByGlass(p, ab, cosine, p.eta), reflects = fms;
+    vec3 averageLost = vec3(max(1.0 - average.x - average.y, 1e-6)), averageBeyond = averageLost;
+    reflected = vec3(0.0);
+    if (p.solid) {
+        vec4 here = fetchAverageGlassAlbedo(p.scatteredAlpha, p.eta), beyond = fetchAverageGlassAlbedo(p.scatteredAlpha, 1.0 / p.eta);
+        averageLost = max(lostLight(here.xyz, p.dielectricF0, p.dielectricF90), 1e-6);
+        averageBeyond = max(lostLight(beyond.xyz, p.dielectricF0, p.dielectricF90), 1e-6);
+        reflects = glassReflects(p.eta, averageLost, averageBeyond, p.eta > 1.0 ? here.w : beyond.w);
+        reflected = reflects * lost * (p.glass * (1.0 - p.metallic));
+    }
+    through = (1.0 - reflects) * lost * p.transmitted;
+    p.glassAbove = reflected / (kPi * averageLost);
+    p.glassBelow = through / (kPi * p.eta * p.eta * averageBeyond);
+    return lost;
 }
 
 // `wo`: z above 0.
@@ -256,6 +288,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     p.transmitted = vec3(0.0);
     p.film = vec3(0.0);
     p.solid = false;
+    p.glass = 0.0;
+    p.glassAbove = p.glassBelow = vec3(0.0);
     p.eta = 1.0;
     if (hasFeature(kFeatureTransmission)) {
         setTransmission(p, m);
@@ -276,12 +310,13 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     }
     p.baseReflectance = vec2(greatest(tableDielectric), p.dielectricF90);
     p.row = albedoRow(tableAlpha);
+    p.scatteredAlpha = max(tableAlpha, kMinAlpha);
     vec2 ab = fetchAlbedo(p, wo);
     vec2 average = fetchAverageAlbedo(p);
     p.baseFms = multipleScatteringFresnel(average, p.baseReflectance.xxx, p.baseReflectance.y).x;
     // Mixed like the two BSDFs, for it is convex in F0: of the mixed F0, a white half-metal of roughness 1 would reflect .78 of the light.
-    vec3 fms = mix(multipleScatteringFresnel(average, tableDielectric, p.dielectricF90),
-                   multipleScatteringFresnel(average, tableMetal, 1.0), data.metallic);
+    vec3 dielectricFms = multipleScatteringFresnel(average, tableDielectric, p.dielectricF90);
+    vec3 fms = mix(dielectricFms * (p.solid ? 1.0 - p.glass : 1.0), multipleScatteringFresnel(average, tableMetal, 1.0), data.metallic);
     vec3 scattered = fms * (1.0 - ab.x - ab.y);
     float below = (1.0 - data.metallic) * passedInterface(p, ab, p.fresnel.dielectric);
     vec3 through = vec3(0.0);
@@ -310,7 +345,14 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
         albedo = p.solid ? p.fresnel.both : albedo;
         albedo += p.transmitted * (1.0 - p.fresnel.dielectric);
     }
-    vec4 weights = vec4(channelMean(albedo), channelMean(scattered + diffuse), 0.0, channelMean(through));
+    vec3 furtherAbove = scattered, furtherBelow = vec3(0.0);
+    if (hasFeature(kFeatureRoughTransmission) && p.glass > 0.0) {
+        vec3 reflected;
+        vec3 lost = setGlass(p, ab, average, dielectricFms, wo.z, reflected, furtherBelow);
+        albedo *= 1.0 - p.glass * lost;
+        furtherAbove += reflected;
+    }
+    vec4 weights = vec4(channelMean(albedo), channelMean(furtherAbove + diffuse), 0.0, channelMean(furtherBelow + through));
     float sheenWeight = 0.0;
     if (hasFeature(kFeatureClearcoat)) {
         weights *= p.passed;
@@ -321,7 +363,10 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
         sheenWeight = channelMean(p.sheen) * min(p.sheenAlbedo, 1.0);
     }
     float sum = max(weights.x + weights.y + weights.z + weights.w + sheenWeight, 1e-30);
-    vec4 probability = mix(clamp(weights / sum, kMinLobeProbability, 1.0), vec4(0.0), lessThanEqual(weights, vec4(0.0)));
+    // What glass loses is known so well that its lobes need no least probability. A path within it meets it tens of times, and would lose
+    // that share of its samples each time.
+    float least = hasFeature(kFeatureRoughTransmission) ? kMinLobeProbability * (1.0 - p.glass) : kMinLobeProbability;
+    vec4 probability = mix(clamp(weights / sum, least, 1.0), vec4(0.0), lessThanEqual(weights, vec4(0.0)));
     p.pSheen = sheenWeight > 0.0 ? max(sheenWeight / sum, kMinLobeProbability) : 0.0;
     float scale = 1.0 / max(probability.x + probability.y + probability.z + probability.w + p.pSheen, 1e-30);
     p.pInterface = probability.x * scale;
@@ -332,8 +377,8 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     float diffuseScale = 1.0 / (kPi * (p.solid ? 1.0 : max(1.0 - interfaceAlbedo(p, average), 1e-6)));
     p.scattered = scattered / (kPi * max(1.0 - average.x - average.y, 1e-6));
     // 1e-30: a black lobe gives 0, not 0 / 0.
-    p.scatteredShare = channelMean(scattered) / max(channelMean(scattered + diffuse), 1e-30);
-    p.scatteredAlpha = max(tableAlpha, kMinAlpha);
+    p.scatteredShare = channelMean(furtherAbove) / max(channelMean(furtherAbove + diffuse), 1e-30);
+    p.throughShare = channelMean(furtherBelow) / max(channelMean(furtherBelow + through), 1e-30);
     p.diffuse = diffuse * diffuseScale;
     p.diffuseThrough = through * diffuseScale;
     if (hasFeature(kFeatureDiffuseTransmission) && m.layers.medium != 0u) {
@@ -389,6 +434,10 @@ BsdfEval evalBelow(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
     if (hasFeature(kFeatureDiffuseTransmission)) {
         result = BsdfEval(p.diffuseThrough * passedInterface(p, e.ab, e.dielectric) * -wi.z, p.pThrough * pdfCosineHemisphere(-wi.z));
     }
+    if (hasFeature(kFeatureRoughTransmission) && p.glass > 0.0) {
+        result.f += p.glassBelow * lostByGlass(p, e.ab, -wi.z, 1.0 / p.eta) * -wi.z;
+        result.pdf = p.pThrough * mix(pdfCosineHemisphere(-wi.z), pdfMultipleScattering(-wi.z, p.scatteredAlpha), p.throughShare);
+    }
     if (transmits(p) && !p.isSmooth && e.h.z > 0.0) {
         vec3 mirrored = vec3(wi.xy, -wi.z);
         float share = (1.0 - reflectedShare(p, e.fresnel)) * p.pInterface;
@@ -408,6 +457,9 @@ float pdfDiffuse(Principled p, float cosine)
 BsdfEval evalAbove(Principled p, InterfaceEval e, vec3 wo, vec3 wi)
 {
     vec3 diffuse = p.scattered * (1.0 - e.ab.x - e.ab.y) + p.diffuse * passedInterface(p, e.ab, e.dielectric);
+    if (hasFeature(kFeatureRoughTransmission) && p.glass > 0.0 && p.solid) {
+        diffuse += p.glassAbove * lostByGlass(p, e.ab, wi.z, p.eta);
+    }
     BsdfEval result = BsdfEval(diffuse * wi.z, p.pDiffuse * pdfDiffuse(p, wi.z));
     if (!p.isSmooth) {
         result.f += e.fresnel.both * evalGgx(wo, wi, p.alpha);
@@ -469,11 +521,11 @@ uint chooseLobe(Principled p, inout float u)
             share = p.pSheen;
         } else {
             u -= hasFeature(kFeatureSheen) ? p.pSheen : 0.0;
-            if (hasFeature(kFeatureDiffuseTransmission) && u < p.pThrough) {
+            if (hasFeature(kFeatureDiffuseTransmission | kFeatureRoughTransmission) && u < p.pThrough) {
                 lobe = kLobeThrough;
                 share = p.pThrough;
             } else {
-                u -= hasFeature(kFeatureDiffuseTransmission) ? p.pThrough : 0.0;
+                u -= hasFeature(kFeatureDiffuseTransmission | kFeatureRoughTransmission) ? p.pThrough : 0.0;
                 if (!(u < p.pInterface)) {
                     u -= p.pInterface;
                     lobe = kLobeDiffuse;
@@ -535,11 +587,10 @@ BsdfSample samplePrincipledDirection(Principled p, vec3 wo, vec2 u, float uLobe)
             fresnel = interfaceFresnel(p, dot(wo, h));
         }
         wi = sampleInterface(p, fresnel, wo, h, uLobe, below);
-    } else if (lobe == kLobeDiffuse && uLobe < p.scatteredShare) {
-        wi = sampleMultipleScattering(u, p.scatteredAlpha);
     } else {
-        wi = sampleCosineHemisphere(u);
         below = lobe == kLobeThrough;
+        float share = below ? (hasFeature(kFeatureRoughTransmission) ? p.throughShare : 0.0) : p.scatteredShare;
+        wi = uLobe < share ? sampleMultipleScattering(u, p.scatteredAlpha) : sampleCosineHemisphere(u);
         wi.z = below ? -wi.z : wi.z;
     }
     bool valid = below ? wi.z < 0.0 : wi.z > 0.0;

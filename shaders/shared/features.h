@@ -50,7 +50,8 @@ GLIM_SHARED_BEGIN
     FEATURE(Catcher, 38, "shadow catchers") \
     FEATURE(Motion, 39, "moving nodes") /* while the shutter is open; with Instances */ \
     FEATURE(LightGroups, 40, "light groups") \
-    FEATURE(LightClusters, 41, "clusters of lights") /* lamps of many triangles; with LightTree */
+    FEATURE(LightClusters, 41, "clusters of lights") /* lamps of many triangles; with LightTree */ \
+    FEATURE(RoughTransmission, 42, "rough transmission") /* with Transmission */
 // clang-format on
 
 #ifdef __cplusplus

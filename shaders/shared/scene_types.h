@@ -230,6 +230,20 @@ GLIM_CONST uint kAnisotropicAverageRatios = 12u;
 GLIM_CONST uint kAnisotropicAverageAlphas = 48u;
 GLIM_CONST uint kAnisotropicAlbedos = kAnisotropicCosines * kAnisotropicRatios * kAnisotropicRatios * kAnisotropicAlphas;
 
+// Scenes with rough transmission have a fourth table at kFirstGlassAlbedo, of interfaces that reflect and refract. At equal steps of the
+// fourth root of the cosine, the fastest, of the square root of alpha, and of |r|^(1/4), r = (eta - 1) / (eta + 1), from kMinGlassRoot to
+// kMaxGlassRoot, it holds (t, p, q): the albedo of single scattering is t + F0 p + F90 q for the reflectance F0 + (F90 - F0) w, where w is
+// the exact Fresnel reflectance less its value along the normal, scaled to [0, 1]. First eta above 1, then below, where they change more.
+// Behind it are their averages over the hemisphere, by alpha and index, and fourth the share of lost light for glassReflects.
+GLIM_CONST uint kFirstGlassAlbedo = kFirstAnisotropicAlbedo + kAnisotropicAlbedos + kAnisotropicAverageRatios * kAnisotropicAverageAlphas;
+GLIM_CONST uint kGlassCosines = 32u;
+GLIM_CONST uint kGlassAlphas = 24u;
+GLIM_CONST uint kGlassDenser = 10u;  // indices above 1
+GLIM_CONST uint kGlassThinner = 24u;
+GLIM_CONST float kMinGlassRoot = 0.22F;  // eta 1.0047
+GLIM_CONST float kMaxGlassRoot = 0.9F;   // eta 4.82
+GLIM_CONST uint kGlassAlbedos = kGlassCosines * kGlassAlphas * (kGlassDenser + kGlassThinner);
+
 GLIM_CONST uint kTriangleLight = 0u;
 GLIM_CONST uint kRectangleLight = 1u;  // two triangles
 GLIM_CONST uint kSphereLight = 2u;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstring>
 #include <iostream>
+#include <optional>
 
 namespace glim::bsdf_sampling_test {
 
@@ -62,6 +63,7 @@ struct Side {
     bool polar;
     double azimuth;
     Axis longitude, latitude;
+    double begin, end;  // of the longitude
 };
 
 double etaOf(const MaterialCase& m)
@@ -70,7 +72,8 @@ double etaOf(const MaterialCase& m)
     return m.solid > 0.0F ? (m.inside > 0.0F ? 1.0 / ior : ior) : 1.0;
 }
 
-Side makeSide(std::size_t at, const BsdfCase& bsdf, float z)
+// `further`: of the far side of a solid, where no facet refracts to.
+Side makeSide(std::size_t at, const BsdfCase& bsdf, float z, bool further = false)
 {
     const MaterialCase& m = bsdf.material;
     const auto square = [](float x) { return std::max(1.6e-3, static_cast<double>(x * x)); };
@@ -88,15 +91,14 @@ Side makeSide(std::size_t at, const BsdfCase& bsdf, float z)
         const double eta = etaOf(m), edge = std::acos(std::min(1.0, wo.z / eta));
         const double theta = std::asin(std::min(1.0, std::hypot(x, y) / eta));
         width *= 0.5 * std::abs(eta - 1.0);
-        return {at,
-                z,
-                true,
-                azimuth + kPi,
-                Axis(eta > 1.0 ? 0.0 : edge, eta > 1.0 ? edge : half, theta, width),
-                Axis(-kPi, kPi, 0.0, width / std::max(std::sin(theta), 1e-3))};
+        const bool inner = (eta > 1.0) != further;
+        const double begin = inner ? 0.0 : edge, end = inner ? edge : half;
+        const Axis longitude(begin, end, further ? edge : theta, further ? 1.0 : width);
+        return {at,    z,  true, azimuth + kPi, longitude, Axis(-kPi, kPi, 0.0, further ? 1.0 : width / std::max(std::sin(theta), 1e-3)),
+                begin, end};
     }
     const double longitude = std::atan2(x, std::sqrt(std::max(0.0, 1.0 - x * x - y * y)));
-    return {at, z, false, azimuth, Axis(-half, half, longitude, width), Axis(-half, half, std::asin(y), width * wide)};
+    return {at, z, false, azimuth, Axis(-half, half, longitude, width), Axis(-half, half, std::asin(y), width * wide), -half, half};
 }
 
 bool transmits(const BsdfCase& c)
@@ -113,7 +115,8 @@ FeatureMask getFeatures(const std::vector<BsdfCase>& cases)
         const MaterialCase& m = c.material;
         features |= (m.clearcoat > 0.0F ? kFeatureClearcoat : 0U) | (m.sheenColor != vec3(0.0F) ? kFeatureSheen : 0U) |
                     (m.anisotropy > 0.0F ? kFeatureAnisotropy : 0U) | (m.film > 0.0F ? kFeatureIridescence : 0U) |
-                    (m.transmission > 0.0F ? kFeatureTransmission : 0U) | (m.diffuseTransmission > 0.0F ? kFeatureDiffuseTransmission : 0U);
+                    (m.transmission > 0.0F ? kFeatureTransmission | kFeatureRoughTransmission : 0U) |
+                    (m.diffuseTransmission > 0.0F ? kFeatureDiffuseTransmission : 0U);
     }
     return features;
 }
@@ -165,12 +168,16 @@ private:
     AlbedoBuffer albedos_;
 };
 
-std::size_t cellOf(const Side& side, const vec3& wi)
+// No value: wi is not in it.
+std::optional<std::size_t> cellOf(const Side& side, const vec3& wi)
 {
     const glm::dvec3 w(wi);
     const double c = std::cos(side.azimuth), s = std::sin(side.azimuth), x = w.x * c + w.y * s, y = w.y * c - w.x * s;
     const double longitude = side.polar ? std::atan2(std::hypot(x, y), std::abs(w.z)) : std::atan2(x, std::abs(w.z));
     const double latitude = side.polar ? std::atan2(y, x) : std::atan2(y, std::hypot(x, w.z));
+    if (!(wi.z * side.z > 0.0F) || longitude < side.begin || longitude > side.end) {
+        return std::nullopt;
+    }
     return side.longitude.cellOf(longitude) * kCells + side.latitude.cellOf(latitude);
 }
 
@@ -183,8 +190,8 @@ std::vector<double> countsOf(const std::vector<Side>& sides, std::span<const Sam
     for (const SampledDirection& s : samples) {
         std::size_t place = counts.size() - 1;
         for (std::size_t i = 0; i < sides.size(); ++i) {
-            if (isContinuous(s) && s.wi.z * sides[i].z > 0.0F) {
-                place = i * kCells * kCells + cellOf(sides[i], s.wi);
+            if (const std::optional<std::size_t> cell = cellOf(sides[i], s.wi); cell && isContinuous(s)) {
+                place = i * kCells * kCells + *cell;
             }
         }
         ++counts[place];
@@ -248,6 +255,9 @@ Summary checkSampling(const std::string& what, const std::vector<BsdfCase>& case
         }
         if (transmits(cases[i])) {
             sides.push_back(makeSide(i, cases[i], -1.0F));
+        }
+        if (cases[i].what == kSamplePrincipled && cases[i].material.solid > 0.0F) {
+            sides.push_back(makeSide(i, cases[i], -1.0F, true));
         }
     }
     const std::vector<glm::vec4> integrals = sampled.integrate(sides);
@@ -393,6 +403,42 @@ TEST(BsdfSamplingTest, MetalsSeenAlongTheSurfaceHaveSmallWeights)
     }
     std::cout << "  largest weight " << largest << "\n";
     EXPECT_LT(largest, 4.0F);
+}
+
+// Paths meet glass many times: the second moment of a weight bounds how their variance grows from one to the next.
+TEST(BsdfSamplingTest, GlassHasSmallWeights)
+{
+    constexpr uint kCount = 1 << 14;
+    std::vector<BsdfCase> cases;
+    for (const float roughness : {0.1F, 0.25F, 0.5F, 0.75F, 1.0F}) {
+        for (const float ior : {1.1F, 1.5F, 2.4F}) {
+            for (const float inside : {0.0F, 1.0F}) {
+                for (const double cosine : {0.02, 0.2, 0.5, 0.8, 1.0}) {
+                    MaterialCase m = plainMaterial(roughness);
+                    m.base = vec3(1.0F);
+                    m.transmission = m.solid = 1.0F;
+                    m.inside = inside;
+                    m.ior = ior;
+                    cases.push_back({directionAt(cosine, kAzimuth), kSamplePrincipled, 0, m});
+                }
+            }
+        }
+    }
+    const auto samples = Sampled(cases).sample(kPointsHashed, kCount, getFeatures(cases));
+    double largest = 0.0, moment = 0.0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const MaterialCase& m = cases[i].material;
+        double squares = 0.0;
+        for (const SampledDirection& s : std::span(samples).subspan(i * kCount, kCount)) {
+            const double eta = s.wi.z < 0.0F ? etaOf(m) : 1.0, weight = static_cast<double>(s.weight.x) * eta * eta;
+            squares += weight * weight / kCount;
+            largest = std::max(largest, weight);
+        }
+        moment = std::max(moment, squares);
+    }
+    EXPECT_LT(largest, 4.0);
+    EXPECT_LT(moment, 1.6);
+    std::cout << "  largest weight " << largest << ", largest second moment " << moment << "\n";
 }
 
 // A layer of factor 0 leaves the bits that a kernel without it computes.

@@ -25,7 +25,7 @@ import slab  # noqa: E402
 import tone  # noqa: E402
 import transmission  # noqa: E402
 from directions import at_cosine, dot, half_vector, mirror, per_channel, reflect, rotate_z, sample_uniform_hemisphere  # noqa: E402
-from quadrature import cosine_average, gauss, hemisphere  # noqa: E402
+from quadrature import Interpolated, cosine_average, gauss, hemisphere  # noqa: E402
 
 MAX_Z = 4.56
 QUADRATURE = 1e-6  # 32 nodes of the half vectors' quadrature against 96: 4e-8; interpolation: 3e-7
@@ -654,6 +654,36 @@ class TransmissionTest(OracleTestCase):
         self.assertGreater(np.sum(valid), 400)
         self.assert_near(back[~valid], 0, 0)
         self.assert_near(forth[valid] / back[valid], 1, 1e-9)  # h from v and l cancels where they are nearly opposite
+
+    def test_parts_of_glass_are_the_albedo_of_its_samples(self):
+        for ior, alpha in ((1.5, 0.25), (1.1, 1.0), (2.4, 0.6)):
+            for mu in (0.8, 0.2, -0.8, -0.3):
+                t, p, q = transmission.glass_parts([abs(mu)], alpha, ior if mu > 0 else 1 / ior)[:, 0]
+                v = at_cosine(abs(mu)) * np.array([1, 1, np.sign(mu)])
+                l, carries = transmission.sample_glass(v, alpha, ior, random(20000))
+                side = np.sign(mu) * np.array([1, 1, 1])
+                weight = np.where(carries, ggx.G(v * side, l * side, alpha, alpha) / ggx.G1(v * side, alpha, alpha), 0)
+                self.assert_mean(weight, t + fresnel.f0_of_ior(ior) * p + q)
+
+    def test_glass_with_further_scattering_keeps_all_light_and_is_reciprocal(self):
+        alpha, ior = 0.5, 1.5
+        f0, x, w = fresnel.f0_of_ior(ior), *(part.ravel() for part in gauss(32))
+        curves = {eta: Interpolated(lambda mu, eta=eta: 1 - np.array([1, f0, 1]) @ transmission.glass_parts(mu, alpha, eta), 4, 1e-6)
+                  for eta in (ior, 1 / ior)}
+        share = transmission.reflected_share(alpha, f0)
+        averages = {eta: np.atleast_1d(cosine_average(curve)) for eta, curve in curves.items()}
+
+        def further(v, l, eta):
+            return transmission.eval_further(v, l, eta, lambda mu, eta: per_channel(curves[eta](mu)), lambda eta: (averages[eta], share))
+
+        l = at_cosine(x**2)
+        for eta in (ior, 1 / ior):
+            for mu in (1.0, 0.4, 0.05):
+                both = sum(part[:, 0] @ (2 * np.pi * 2 * x * w) for part in further(at_cosine(mu), l, eta))
+                self.assert_near(both, curves[eta](np.array([mu]))[0], 2e-4)  # the averages by 64 nodes, this by 32
+        v, l = at_cosine(0.3), at_cosine(np.array([0.8]))
+        forth, back = further(v, l, ior)[1] / l[:, 2:] / ior**2, further(l[0], v[None], 1 / ior)[1] / v[2]
+        self.assert_near(forth / back, 1, ROUNDING)
 
     def test_glass_of_index_one(self):
         self.assertTrue(transmission.is_pass_through(1.00005))

@@ -2,6 +2,7 @@
 
 Sources: KHR_materials_transmission, KHR_materials_volume and KHR_materials_diffuse_transmission; Walter et al.,
 "Microfacet Models for Refraction through Rough Surfaces" (2007), whose equations the functions name.
+Light that glass scatters more than once: in the form of Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (2017).
 Masking and shadowing are height-correlated, 1/(1 + Lambda(v) + Lambda(l)), on both sides.
 """
 
@@ -9,8 +10,8 @@ import numpy as np
 
 import core
 import ggx
-from directions import dot, half_vector, mirror, normalize, per_channel, reflect
-from fresnel import dielectric
+from directions import at_cosine, dot, half_vector, mirror, normalize, per_channel, reflect
+from fresnel import dielectric, f0_of_ior
 
 MIN_ETA_STEP = 1e-4  # closer to 1, an interface of this index bends nothing and its half vector is undefined
 
@@ -98,6 +99,56 @@ def sample_glass(v, alpha, ior, u):
     reflected = u[:, 2] < dielectric(dot(v * side, h), eta)
     l = np.where(per_channel(reflected) > 0, reflect(v * side, h), refract(v * side, h, eta))
     return l * side, (l[:, 2] > 0) == reflected
+
+
+def glass_parts(mu, alpha, eta, nodes=4181, step=2584):
+    """(t, p, q), as (3, k), at cosines (k,): the albedo of single scattering of both lobes together is t + F0 p + F90 q.
+
+    The reflectance is F0 + (F90 - F0) w, w the exact one scaled to begin at 0, and 1 under total reflection. By visible normals, at a
+    lattice of two numbers of Fibonacci over the height on the spherical cap and half of the azimuths.
+    """
+    mu = np.asarray(mu, float)[:, None]
+    v = at_cosine(mu)
+    stretched = normalize(ggx.stretch(v, alpha, alpha))
+    i = np.arange(nodes)
+    q, phi = (i + 0.5) / nodes * (1 + stretched[..., 2]), np.pi * (i * step % nodes) / nodes
+    r = np.sqrt(q * (2 - q))
+    cap = np.stack(np.broadcast_arrays(r * np.cos(phi), r * np.sin(phi), 1 - q), axis=-1) + stretched
+    h = normalize(ggx.stretch(cap, alpha, alpha))
+    cosine = dot(v, h)
+
+    def passed(z):
+        w = at_cosine(np.clip(z, 1e-12, 1))
+        return np.where(z > 0, ggx.G(v, w, alpha, alpha) / ggx.G1(v, alpha, alpha), 0)
+
+    f, f0 = dielectric(cosine, eta), f0_of_ior(eta)
+    reflected = passed(2 * cosine * h[..., 2] - mu)
+    refracted = passed(-refract(v, h, eta)[..., 2])
+    w, total = (f - f0) / (1 - f0), f >= 1
+    parts = np.where(total, reflected, refracted), *(np.where(total, 0, part * (reflected - refracted)) for part in (1 - w, w))
+    return np.mean(parts, axis=-1)
+
+
+def reflected_share(alpha, f0):
+    """The share of what single scattering loses of light from the side of the smaller index that leaves on that side.
+
+    Fitted to random walks: Heitz et al., "Multiple-Scattering Microfacet BSDFs with the Smith Model" (2016).
+    """
+    return np.minimum(0.345 * alpha**-0.25 * f0 ** (0.9 * np.sqrt(alpha)), 1)
+
+
+def eval_further(v, l, eta, lost, average):
+    """Light scattered more than once, times |nl| in 1/sr, per channel (n, 3): (reflected, refracted) parts for v (3,) above.
+
+    lost(mu, eta): what single scattering loses (..., 3); average(eta): its average (3,) and the reflected share of the thinner side.
+    The refracted part is reciprocal as that of eval_glass is.
+    """
+    (here, share), (beyond, other) = average(eta), average(1 / eta)
+    ratio = beyond * eta**2 / here
+    reflected = np.maximum(share, 1 - ratio) if eta > 1 else np.maximum(1 - (1 - other) * ratio, 0)
+    cosine = np.abs(l[..., 2])
+    common = lost(v[None, 2], eta) * per_channel(cosine / np.pi)
+    return common * reflected / here * lost(cosine, eta), common * (1 - reflected) / beyond * lost(cosine, 1 / eta)
 
 
 def eval_diffuse(v, l, lobes, factor, color):

@@ -19,6 +19,7 @@ import clearcoat
 import core
 import fresnel
 import ggx
+import glass_table
 import iridescence
 import media
 import sheen
@@ -342,6 +343,7 @@ def eval_principled(v, l, m):
     above = l[:, 2] > 0
     upper = np.where(above[:, None], l, mirror(l))
     solid = m.solid and m.transmission > 0
+    table_alpha = np.sqrt(np.mean(np.square(ax_ay)))
 
     def dielectric(cosine):
         if solid:
@@ -367,6 +369,9 @@ def eval_principled(v, l, m):
         table_metal = iridescence.equivalent_f0(v[2], metal(v[2]))
     lobes = core.Lobes(*ax_ay, table_f0, f90, base, np.max(table_f0), f90)
     more = core.eval_multiple_scattering(v, l, lobes)
+    share = m.transmission if alpha[0] > ggx.MIN_ALPHA else 0
+    if solid:
+        more = more * (1 - share)
     f = f + more + (core.eval_multiple_scattering(v, l, replace(lobes, f0=table_metal, f90=1.0)) - more) * m.metallic
     if m.transmission > 0:
         if solid:
@@ -375,6 +380,23 @@ def eval_principled(v, l, m):
         else:
             lobe = per_channel(ggx.eval(v, upper, *alpha))
         f = f + np.where(above[:, None], 0, (1 - dielectric(cosine)) * lobe * base * m.transmission * (1 - m.metallic))
+        if solid:
+            shift = TabledCurves.shift
+
+            def lost(parts):
+                return 1 - shift - parts[..., :1] - f0 * parts[..., 1:2] - f90 * parts[..., 2:3]
+
+            def average(eta):
+                parts = glass_table.look_up_average(table_alpha, eta)
+                return lost(parts) + shift - TabledCurves.average_shift, parts[3] + TabledCurves.average_shift
+
+            near, far = transmission.eval_further(v, l, eta, lambda mu, eta: lost(glass_table.look_up(mu, table_alpha, eta)), average)
+            further = np.where(above[:, None], near, far / eta**2 * base)
+        else:
+            fms = core.multiple_scattering_fresnel(lobes.curves, table_f0, f90)
+            white = core.eval_multiple_scattering(v, upper, replace(lobes, f0=np.ones(3), f90=1.0))
+            further = np.where(above[:, None], 0, white * (1 - fms) * base)
+        f = f + further * share * (1 - m.metallic)
     # Below it.
     left = (1 - m.metallic) * (1 - m.transmission)
     if solid:

@@ -28,6 +28,8 @@ private:
             all.insert(all.end(), sheen.begin(), sheen.end());
             const std::vector<uvec4> anisotropic = makeAnisotropicAlbedoTable();
             all.insert(all.end(), anisotropic.begin(), anisotropic.end());
+            const std::vector<uvec4> glass = makeGlassAlbedoTable();
+            all.insert(all.end(), glass.begin(), glass.end());
             return all;
         }();
         return kTable;

@@ -30,6 +30,21 @@ vec3 interfaceAlbedo(vec2 ab, vec3 f0, float f90, vec3 fms)
     return singleScatteringAlbedo(ab, f0, f90) + fms * (1.0 - ab.x - ab.y);
 }
 
+// Of the albedo t + F0 p + F90 q of an interface that refracts (shared/scene_types.h).
+vec3 lostLight(vec3 parts, vec3 f0, float f90)
+{
+    return max(1.0 - (parts.x + f0 * parts.y + f90 * parts.z), 0.0);
+}
+
+// The share of what such an interface loses that leaves on the side it came from. eta: the index beyond over that here; `lost`,
+// `lostBeyond`: averages over the hemispheres of both sides. `thinner`: the share on the side of the smaller index
+// (host/flatten/glass_albedo.cpp); that of the other follows by reciprocity.
+vec3 glassReflects(float eta, vec3 lost, vec3 lostBeyond, float thinner)
+{
+    vec3 ratio = lostBeyond * (eta * eta) / lost;
+    return eta > 1.0 ? max(vec3(thinner), 1.0 - ratio) : max(1.0 - (1.0 - thinner) * ratio, 0.0);
+}
+
 // Multiply scattered light goes as cos (1 - a - b). Of a rather smooth interface that is nearly all along the surface: 1 - a - b falls as
 // alpha^2 / cos^2 there. So the density of the cosine is proportional to cos / (cos^2 + alpha^2), by inversion. By the cosine alone, weights
 // reach 65.
