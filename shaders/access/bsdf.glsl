@@ -56,6 +56,7 @@ Principled makePrincipled(SurfaceInteraction si, SurfaceMaterial material, Frame
     m.passesStraight = hasFeature(kFeatureThinWalls) && passesStraight(material.data);
     vec3 coatNormal = dot(material.coatNormal, wo) > 0.0 ? material.coatNormal : si.ng;
     m.coatNormal = frameFromWorld(frame, coatNormal);
+    m.ng = frameFromWorld(frame, si.ng);
     return makePrincipled(m, outgoingInFrame(frame, wo));
 }
 

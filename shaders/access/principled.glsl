@@ -29,6 +29,7 @@ struct PrincipledInput {
     LayersData layers;
     vec3 baseColor;
     vec3 coatNormal;        // unit, on wo's side
+    vec3 ng;                // unit, on wo's side; needed with a coat
     float filmThickness;    // nm
     float eta;              // index beyond the surface over that on wo's side
     bool passesStraight;    // light that a smooth thin wall transmits is not this BSDF's (transparency.glsl)
@@ -74,6 +75,7 @@ struct Principled {
     Frame coatFrame;
     AlbedoRow coatRow;
     float coatAlbedo;   // at wo
+    vec3 ng;
     vec3 sheen;
     float sheenAlpha, sheenAlbedo, sheenMost;  // most: of the channels
     AlbedoRow sheenRow;
@@ -181,12 +183,19 @@ float coatAlbedoAt(Principled p, float cosine)
     return kCoatF0 * ab.x + ab.y;
 }
 
-// What coat and sheen leave to what is below, of light from a direction whose cosines against their normals are given.
-float passedLayers(Principled p, float coatAlbedo, float sheenAlbedo)
+// What the coat takes from what is below, of light from w. A coat that is tilted so much that it reflects w into the surface takes nothing:
+// on real bumps that light meets the coat again, which passes nearly all of it (tests/MEASUREMENTS.md).
+float takenByCoat(Principled p, vec3 w, float albedo)
+{
+    return dot(reflectAbout(w, p.coatFrame.z), p.ng) * dot(w, p.ng) > 0.0 ? p.coat * albedo : 0.0;
+}
+
+// What coat and sheen leave to what is below, of light from a direction.
+float passedLayers(Principled p, float taken, float sheenAlbedo)
 {
     float passed = 1.0;
     if (hasFeature(kFeatureClearcoat)) {
-        passed *= 1.0 - p.coat * coatAlbedo;
+        passed *= 1.0 - taken;
     }
     if (hasFeature(kFeatureSheen)) {
         passed *= max(0.0, 1.0 - p.sheenMost * sheenAlbedo);
@@ -203,6 +212,7 @@ void setCoat(inout Principled p, PrincipledInput m, vec3 wo)
     p.coatRow = albedoRow(alpha);
     p.coatFrame = makeFrame(dot(m.coatNormal, wo) > 0.0 ? m.coatNormal : vec3(0.0, 0.0, 1.0));
     p.coatAlbedo = coatAlbedoAt(p, dot(p.coatFrame.z, wo));
+    p.ng = m.ng;
 }
 
 void setSheen(inout Principled p, PrincipledInput m, vec3 wo)
@@ -339,7 +349,11 @@ Principled makePrincipled(PrincipledInput m, vec3 wo)
     if (hasFeature(kFeatureSheen)) {
         setSheen(p, m, wo);
     }
-    p.passed = passedLayers(p, p.coatAlbedo, p.sheenAlbedo);
+    float taken = 0.0;
+    if (hasFeature(kFeatureClearcoat)) {
+        taken = takenByCoat(p, wo, p.coatAlbedo);
+    }
+    p.passed = passedLayers(p, taken, p.sheenAlbedo);
     vec3 albedo = singleScatteringAlbedo(ab, tableF0, p.f90);
     if (hasFeature(kFeatureTransmission)) {
         albedo = p.solid ? p.fresnel.both : albedo;
@@ -479,20 +493,20 @@ BsdfEval evalPrincipled(Principled p, vec3 wo, vec3 wi)
     } else {
         result = evalBelow(p, e, wo, wi);
     }
-    float coatAlbedo = 0.0, sheenAlbedo = 0.0;
+    float taken = 0.0, sheenAlbedo = 0.0;
     vec3 coatWi = wi;
     if (hasFeature(kFeatureClearcoat)) {
         coatWi = frameFromWorld(p.coatFrame, wi);
-        coatAlbedo = coatAlbedoAt(p, abs(coatWi.z));
+        taken = takenByCoat(p, wi, coatAlbedoAt(p, abs(coatWi.z)));
     }
     if (hasFeature(kFeatureSheen)) {
         sheenAlbedo = sheenAlbedoAt(p, abs(wi.z));
     }
     if (hasFeature(kFeatureClearcoat | kFeatureSheen)) {
-        result.f *= min(p.passed, passedLayers(p, coatAlbedo, sheenAlbedo));
+        result.f *= min(p.passed, passedLayers(p, taken, sheenAlbedo));
     }
     if (hasFeature(kFeatureSheen) && above && p.sheenMost > 0.0) {
-        float left = hasFeature(kFeatureClearcoat) ? min(1.0 - p.coat * p.coatAlbedo, 1.0 - p.coat * coatAlbedo) : 1.0;
+        float left = hasFeature(kFeatureClearcoat) ? min(1.0 - takenByCoat(p, wo, p.coatAlbedo), 1.0 - taken) : 1.0;
         result.f += p.sheen * (left * evalSheen(wo, wi, p.sheenAlpha) * sheenScale(p.sheenAlbedo, sheenAlbedo));
         result.pdf += p.pSheen * kPdfSheen;
     }

@@ -318,5 +318,26 @@ TEST(AlphaTest, H47NormalMapsThatPointAway)
     }
 }
 
+// White under a coat that is tilted by 40 degrees away from a camera at 45: it would reflect .65 of the light, into the surface. What the
+// coat takes of light from other directions is left.
+TEST(AlphaTest, ACoatThatReflectsIntoTheSurfaceLeavesTheLightToTheBase)
+{
+    SceneBuilder builder;
+    builder.quad({{{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}}, builder.lambert(glm::vec3(1.0F)))
+        .environment(glm::vec3(1.0F))
+        .orthographic({1, 0, 1}, {0, 0, 0}, 0.5F);
+    Scene scene = builder.scene();
+    scene.materials[0].clearcoat = 1.0F;
+    scene.materials[0].clearcoatRoughness = 0.1F;
+    scene.materials[0].textures[kSlotClearcoatNormal].emplace().image = 0;
+    setQuadUvs(scene.meshes.change()[0], 1.0F);
+    scene.meshes.change()[0].tangents.assign(6, glm::vec4(1, 0, 0, 1));
+    scene.images.push_back({"tilted", normalImage({{46, 128, 225}, {46, 128, 225}})});
+    const MeanEstimate mean = meanOf(renderScene(scene, squareSettings(16, samplesFor(256))));
+    std::printf("white under a coat that reflects into it: %.4f +- %.4f\n", mean.mean.g, mean.standardError.g);
+    EXPECT_GT(mean.mean.g, 0.85);
+    EXPECT_LE(mean.mean.g, 1.0 + 5.0 * mean.standardError.g);
+}
+
 }  // namespace
 }  // namespace glim

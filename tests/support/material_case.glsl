@@ -28,7 +28,7 @@ Principled makePrincipled(MaterialCase c, vec3 wo)
     m.layers.transmission = c.transmission;
     m.layers.medium = c.solid > 0.0 ? 1u : 0u;
     m.baseColor = c.base;
-    m.coatNormal = c.coatNormal;
+    m.coatNormal = m.ng = c.coatNormal;
     m.filmThickness = c.filmThickness;
     m.eta = c.inside > 0.0 ? 1.0 / c.ior : c.ior;
     m.passesStraight = false;
