@@ -1,5 +1,6 @@
 """Images made by code, and PNG files of them: the same bytes from every zlib, because nothing is compressed."""
 
+import itertools
 import math
 import struct
 import zlib
@@ -39,16 +40,29 @@ def png(rows, color_type=RGB, depth=8, palette=(), alphas=()):
         struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in chunks)
 
 
-def radiance_map(width, height, radiance):
-    """A Radiance .hdr file without run lengths. radiance(azimuth, elevation) gives RGB; degrees, azimuth 0 is +z and 90 is +x."""
-    pixels = bytearray()
+def run_lengths(values):
+    """A channel of a row of a Radiance .hdr file, by runs alone."""
+    packed = bytearray()
+    for value, run in itertools.groupby(values):
+        length = len(list(run))
+        while length > 0:
+            packed += bytes([128 + min(length, 127), value])
+            length -= 127
+    return bytes(packed)
+
+
+def radiance_map(width, height, radiance, packed=False):
+    """A Radiance .hdr file, packed if rows have long runs. radiance(azimuth, elevation) gives RGB; degrees, azimuth 0 is +z and 90 is +x."""
+    rows = bytearray()
     for y in range(height):
+        pixels = bytearray()
         for x in range(width):
             azimuth = 180.0 - (360.0 * (x + 0.5) / width + 180.0) % 360.0
             color = radiance(azimuth, 90.0 - 180.0 * (y + 0.5) / height)
             exponent = math.frexp(max(color))[1]
             pixels += bytes(int(math.ldexp(c, 8 - exponent)) for c in color) + bytes([exponent + 128])
-    return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + bytes(pixels)
+        rows += struct.pack(">BBH", 2, 2, width) + b"".join(run_lengths(pixels[k::4]) for k in range(4)) if packed else pixels
+    return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + bytes(rows)
 
 
 def softboxes(boxes, ambient):

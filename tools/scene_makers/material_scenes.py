@@ -3,9 +3,11 @@
 import math
 
 from .gltf_document import Document, look_at
-from .made_images import GREY, PALETTE, RGB, RGBA, hash01, normal_map, png, radiance_map, ramp, sample, smooth_step, softboxes, turbulence
+from .made_images import (GREY, PALETTE, RGB, RGBA, hash01, mix, normal_map, png, radiance_map, ramp, sample, smooth_step, softboxes,
+                          turbulence)
+from .shapes import brilliant, rest_on_face, turn
 from .showcase import drape, leaf_picture, tumbler
-from .surfaces import ball, lathe, rectangle, rotation, torus
+from .surfaces import ball, joined, lathe, patch, rectangle, rotation, torus
 
 GOLD, COPPER = (1.0, 0.766, 0.336), (0.955, 0.638, 0.538)
 
@@ -228,6 +230,60 @@ def liquid():
     return document
 
 
+def light_by_sun(document):
+    """A sky whose sun is one texel, half a degree wide."""
+    side, azimuth, elevation = 0.5, 40.25, 50.25
+    def sky(a, e):
+        if abs(a - azimuth) < 0.5 * side and abs(e - elevation) < 0.5 * side:
+            return (76000.0, 71000.0, 62000.0)  # 3.7 W/m^2 across its light
+        return mix((0.25, 0.24, 0.22), (0.12, 0.2, 0.4), smooth_step(-5.0, 60.0, e))
+    document.environment("sun.hdr", radiance_map(720, 360, sky, packed=True))
+
+
+def sun_glass():
+    """What a globe and a gem in the light of a small sun throw on floor and wall. Camera 0 does not see them."""
+    document = Document()
+    document.camera("light", (0.0, 0.6, 2.6), (-0.45, 0.0, -0.3), 26.0, 1.0)
+    document.camera("front", (0.0, 1.5, 4.2), (0.0, 0.6, -0.2), 36.0, 1.0)
+    light_by_sun(document)
+    grey = document.material("grey", (0.6, 0.58, 0.55))
+    document.quad("floor", [[-3, 0, 2], [3, 0, 2], [3, 0, -1.6], [-3, 0, -1.6]], grey)
+    document.quad("wall", [[-3, 0, -1.6], [3, 0, -1.6], [3, 2.5, -1.6], [-3, 2.5, -1.6]], grey)
+    document.sphere("globe", (0.5, 1.15, 0.5), 0.4, document.material("glass", (1.0, 1.0, 1.0), ior=1.5))
+    points, indices = brilliant(8)
+    resting = rest_on_face([[0.4 * c for c in p] for p in points], indices, -1, 0.8)
+    document.shape("gem", turn(resting, -12.0, (-0.35, 0.0, 0.5)), indices, document.material("sapphire", (0.6, 0.75, 0.97), ior=1.77))
+    return document
+
+
+def sun_water():
+    """The inside of a pool under a small sun. The camera is in the water and does not see its surface."""
+    document = Document()
+    document.camera("diver", (0.0, -0.35, 1.2), (0.0, -1.2, -0.5), 50.0, 1.0)
+    light_by_sun(document)
+    tiles = document.material("tiles", (0.55, 0.65, 0.68), double_sided=True)
+    h, depth, w = 1.5, 1.2, 1.51  # the water ends within the walls
+    corners = [[x, y, z] for y in (-depth, 0.1) for x, z in ((-h, h), (h, h), (h, -h), (-h, -h))]
+    document.shape("pool", corners,
+                   [0, 1, 2, 0, 2, 3, 3, 2, 6, 3, 6, 7, 0, 3, 7, 0, 7, 4, 2, 1, 5, 2, 5, 6, 1, 0, 4, 1, 4, 5], tiles)
+    document.sphere("ball", (0.3, -0.95, -0.5), 0.25, document.material("rubber", (0.75, 0.3, 0.15)))
+    water = document.surface_material("water", roughness=0.0, extensions=solid(1.33, (0.6, 0.85, 0.9), 3.0))
+    def wave(s, t):
+        x, z = 2.0 * w * (s - 0.5), 2.0 * w * (0.5 - t)
+        return [x, 0.012 * math.sin(7.1 * x + 2.3 * z) + 0.01 * math.sin(3.7 * x - 8.9 * z + 1.0) + 0.006 * math.sin(13.0 * z + 4.0 * x), z]
+    top = patch(wave, 40, 40)
+    low = -depth - 0.01
+    def side(a, b):  # from wave(*a) to wave(*b), and down
+        def point(s, t):
+            x, y, z = wave(a[0] + (b[0] - a[0]) * s, a[1] + (b[1] - a[1]) * s)
+            return [x, low + (y - low) * t, z]
+        return patch(point, 40, 1)
+    bottom = rectangle((-w, low, -w), (2.0 * w, 0.0, 0.0), (0.0, 0.0, 2.0 * w))
+    sides = [side((0.0, 0.0), (1.0, 0.0)), side((1.0, 0.0), (1.0, 1.0)), side((1.0, 1.0), (0.0, 1.0)), side((0.0, 1.0), (0.0, 0.0))]
+    document.small_surface("water", joined([top, bottom, *sides]), water, uv=False)
+    return document
+
+
 def wax():
     """A candle, a glass of milk and a ring of jade: each lets light in otherwise, and names its scattering by another extension."""
     document = Document()
@@ -320,4 +376,5 @@ def cloth():
 
 
 MATERIAL_SCENES = {"materials": materials, "textures": textures, "normal_map": normal_map_scene, "alpha": alpha, "liquid": liquid,
-                   "wax": wax, "product": product, "car_paint": car_paint, "cloth": cloth}
+                   "wax": wax, "sun_glass": sun_glass, "sun_water": sun_water,
+                   "product": product, "car_paint": car_paint, "cloth": cloth}
