@@ -61,7 +61,7 @@ def type_of(name, option):
         return TYPES[name]
     if option["kind"] == "choice":
         words = option["choices"]
-        switch = ["bool"] if sorted(words) == ["off", "on"] else []
+        switch = ["bool"] if {"off", "on"} <= set(words) else []
         literal = "Literal[%s]" % ", ".join('"%s"' % word for word in words)
         return "Union[%s]" % ", ".join([*switch, literal]) if switch else literal
     return KINDS[option["kind"]]  # a KeyError: TYPES lacks the option

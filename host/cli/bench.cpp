@@ -16,6 +16,7 @@
 #include "host/job/version.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/render/film_file.hpp"
+#include "host/render/light_path_gain.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
@@ -148,7 +149,7 @@ SceneBench describeBench(const BenchOptions& options, const std::filesystem::pat
     return bench;
 }
 
-BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& scene, const DeviceDescription& device)
+BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& scene, Device& device)
 {
     BenchJob job{prepareScene(scene, makeLoadOptions(options), options.split), options.settings, {}, {}};
     warnIfNoLights(job.prepared);
@@ -158,9 +159,13 @@ BenchJob prepareJob(const BenchOptions& options, const std::filesystem::path& sc
     job.settings.width = size.x;
     job.settings.height = size.y;
     job.settings.sampleEnd = std::bit_floor(maxSamples(job.settings));
-    checkMemory(job.prepared, job.settings, device);
+    job.settings.caustics = options.caustics != CausticsChoice::Off;
+    checkMemory(job.prepared, job.settings, device.description());
     job.camera = flattenCamera(job.prepared, camera, static_cast<float>(size.x) / static_cast<float>(size.y), options.lens);
-    job.bench = describeBench(options, scene, job.settings, device);
+    if (options.caustics == CausticsChoice::Auto) {
+        job.settings.caustics = choosesLightPaths(device, job.prepared.flat, job.camera, job.settings);
+    }
+    job.bench = describeBench(options, scene, job.settings, device.description());
     return job;
 }
 
@@ -272,13 +277,13 @@ ExitCode runBench(const BenchOptions& options)
     Device device(instance, options.device);
     std::vector<SceneBench> benches;
     for (const std::filesystem::path& scene : options.scenes) {
-        BenchJob job = prepareJob(options, scene, device.description());
+        BenchJob job = prepareJob(options, scene, device);
         const SceneBench* baseline = options.against ? &findBaseline(baselines, options.against->string(), job.bench) : nullptr;
         std::optional<BenchJob> other;
         std::string apart;
         if (baseline != nullptr) {
             if (baseline->options && *baseline->options != *job.bench.options) {
-                other = prepareJob(makeOptions(*baseline, options.against->string(), options), scene, device.description());
+                other = prepareJob(makeOptions(*baseline, options.against->string(), options), scene, device);
             }
             apart = whyNotByTurns(*baseline, job, other);
             if (!apart.empty()) {

@@ -92,7 +92,7 @@ void addBenchOptions(OptionTable& table, BenchOptions& options)
     addCamera(table, options);
     addSampling(table, options);
     addLightTransport(table, options.settings);
-    addCaustics(table, options.settings);
+    addCaustics(table, options.caustics);
     addCourseEstimators(table, options.settings);
     addDevice(table, options);
     addOutput(table, options);

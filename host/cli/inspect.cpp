@@ -328,7 +328,7 @@ void printLooks(const PreparedScene& prepared)
         std::cout << '\n';
     }
     if ((prepared.flat.features & kFeatureCaustics) != 0) {
-        std::cout << "  caustics: by light paths from " << prepared.flat.causticLights << " lights to " << prepared.flat.causticTargets
+        std::cout << "  caustics: from " << prepared.flat.causticLights << " lights to " << prepared.flat.causticTargets
                   << " places with specular surfaces\n";
     }
     for (std::uint32_t i = 1; i <= prepared.flat.media.size(); ++i) {

@@ -4,6 +4,7 @@
 #include "host/flatten/camera_options.hpp"
 #include "host/job/output_file.hpp"
 #include "host/render/describe_primitive.hpp"
+#include "host/render/light_path_gain.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/replay.hpp"
 #include "host/text.hpp"
@@ -317,10 +318,14 @@ void runReplay(const RenderJob& options)
     const PreparedScene prepared = prepareScene(options.scene, makeLoadOptions(options), options.split);
     const Camera camera = makeCamera(prepared.scene, options);
     sayIfCameraIsNumber(prepared.scene, options.camera);
-    const RenderSettings settings = settingsFor(options, camera);
+    RenderSettings settings = settingsFor(options, camera);
     refuseOutside("--replay", {options.replay->x, options.replay->y}, settings);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    Replay replay(device, prepared.flat, flattenCamera(prepared, camera, aspect, options.lens), settings);
+    const FlatCamera flatCamera = flattenCamera(prepared, camera, aspect, options.lens);
+    if (options.caustics == CausticsChoice::Auto) {
+        settings.caustics = choosesLightPaths(device, prepared.flat, flatCamera, settings);
+    }
+    Replay replay(device, prepared.flat, flatCamera, settings);
     const SamplePlace& place = *options.replay;
     const ReplayReport report{options, prepared, settings, device.description(),
                               replay.trace(place.y * settings.width + place.x, place.sample)};

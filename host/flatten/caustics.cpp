@@ -270,84 +270,36 @@ double computeFlux(const FlatLight& light)
     return pi * area * (isDoubleSided(light) ? 2.0 : 1.0) * strongestChannel(light.intensity);
 }
 
-double fluxToTargets(const FlatLight& light, std::span<const BoundingSphere> targets)
+// W/m^2 across an infinite light's direction; of the environment, what light paths carry.
+double computeIrradiance(const FlatLight& light, const PackedEnvironment& map)
+{
+    return strongestChannel(light.intensity) * ((light.kind & kLightKindMask) == kEnvironmentLight ? map.brightIntegral : 1.0);
+}
+
+bool isInfinite(const FlatLight& light) { return (light.kind & kLightKindMask) >= kDirectionalLight; }
+
+double fluxToTargets(const FlatLight& light, const PackedEnvironment& map, std::span<const BoundingSphere> targets)
 {
     double sum = 0.0;
     for (const BoundingSphere& target : targets) {
-        sum += (light.kind & kLightKindMask) == kDirectionalLight ? pi * target.radius * target.radius * strongestChannel(light.intensity)
-                                                                  : shareOf(light, target);
+        sum += isInfinite(light) ? pi * target.radius * target.radius * computeIrradiance(light, map) : shareOf(light, target);
     }
-    return (light.kind & kLightKindMask) == kDirectionalLight ? sum : std::min(sum, 1.0) * computeFlux(light);
+    return isInfinite(light) ? sum : std::min(sum, 1.0) * computeFlux(light);
 }
 
 // W/(sr m^2), about.
-double computeBrightness(const FlatLight& light, double sceneRadius)
+double computeBrightness(const FlatLight& light, const PackedEnvironment& map, double sceneRadius)
+{
+    const double intensity = strongestChannel(light.intensity);
+    return isInfinite(light)                               ? computeIrradiance(light, map)
+           : (light.kind & kLightKindMask) <= kSphereLight ? intensity
+                                                           : intensity / (sceneRadius * sceneRadius);
+}
+
+bool hasNoExtent(const FlatLight& light)
 {
     const std::uint32_t kind = light.kind & kLightKindMask;
-    const double intensity = strongestChannel(light.intensity);
-    return kind == kDirectionalLight ? intensity : kind <= kSphereLight ? intensity : intensity / (sceneRadius * sceneRadius);
-}
-
-bool isPunctual(const FlatLight& light) { return (light.kind & kLightKindMask) > kSphereLight; }
-
-// The probability, about, that a specular ray from the target meets the light.
-double computeShareOfLight(const FlatLight& light, const BoundingSphere& target)
-{
-    const bool sphere = (light.kind & kLightKindMask) == kSphereLight;
-    const double size = static_cast<double>(light.size), area = sphere ? pi * size * size : size;
-    const glm::dvec3 middle = glm::dvec3(light.position) + (sphere ? glm::dvec3(0.0) : 0.5 * glm::dvec3(light.edge1 + light.edge2));
-    const double distance = std::max(glm::length(middle - target.center), 0.5 * target.radius);
-    return std::min(1.0, area / (pi * distance * distance));
-}
-
-// Whether light paths meet caustics more often than camera paths do, in a room of this surface area: per sample of a pixel, a tenth of the
-// share of light paths that hit what they are aimed at, against the chance that a diffuse ray meets a target and then a light. The factor
-// is measured, with lights of three sizes, balls and a mirror for a wall (tests/bench/EXPERIMENTS.md). Camera paths never find a light
-// without extent.
-bool areLightPathsBetter(std::span<const FlatLight> lights, std::span<const double> fluxes, std::span<const BoundingSphere> targets,
-                         double roomArea)
-{
-    constexpr double kLightPaths = 0.1, kFactor = 0.6;
-    double hits = 0.0, weights = 0.0, chance = 0.0;
-    for (const BoundingSphere& target : targets) {
-        // The mean area that a convex body shows is a quarter of its surface (Cauchy).
-        const double shown = std::min(1.0, 0.25 * target.area / (pi * target.radius * target.radius));
-        double share = 0.0;
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            if (isPunctual(lights[i]) && fluxes[i] > 0.0) {
-                return true;
-            }
-            share += computeShareOfLight(lights[i], target);
-        }
-        const double weight = pi * target.radius * target.radius;
-        hits += weight * shown;
-        weights += weight;
-        chance += std::min(1.0, target.area / roomArea) * std::min(1.0, share);
-    }
-    return kLightPaths * hits >= kFactor * chance * weights;
-}
-
-// Of the box around everything.
-double roomArea(const Primitives& primitives, std::span<const BoundingSphere> placed)
-{
-    glm::dvec3 low(INFINITY), high(-INFINITY);
-    for (const Triangle& triangle : primitives.triangles) {
-        for (const glm::vec3& v : triangle.vertices) {
-            low = glm::min(low, glm::dvec3(v));
-            high = glm::max(high, glm::dvec3(v));
-        }
-    }
-    for (const PlacedSphere& sphere : primitives.spheres.all()) {
-        const glm::vec3 end = sphere.center + sphere.axis;
-        low = glm::min(low, glm::dvec3(glm::min(sphere.center, end) - sphere.radius));
-        high = glm::max(high, glm::dvec3(glm::max(sphere.center, end) + sphere.radius));
-    }
-    for (const BoundingSphere& sphere : placed) {
-        low = glm::min(low, sphere.center - sphere.radius);
-        high = glm::max(high, sphere.center + sphere.radius);
-    }
-    const glm::dvec3 side = high - low;
-    return 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x);
+    return kind == kPointLight || kind == kSpotLight || kind == kDirectionalLight;
 }
 
 uvec4 packTarget(const BoundingSphere& sphere)
@@ -362,7 +314,9 @@ uvec4 packTarget(const BoundingSphere& sphere)
 void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitives)
 {
     const SpecularMaterials specular(flat, scene);
-    const std::size_t lights = flat.lights.size() - ((flat.features & kFeatureEnvironment) != 0 ? 1 : 0);
+    const PackedEnvironment& map = *flat.environmentMap;
+    const bool isBright = (flat.features & kFeatureEnvironmentMap) != 0 && !map.brightCells.empty();
+    const std::size_t lights = flat.lights.size() - ((flat.features & kFeatureEnvironment) != 0 && !isBright ? 1 : 0);
     if (!specular.any() || lights == 0) {
         return;
     }
@@ -382,18 +336,21 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     const BoundingSphere whole = boundingSphere(std::span<const BoundingSphere>(all));
     std::vector<double> fluxes;
     double brightness = 0.0, sum = 0.0;
+    bool hasHidden = false;
     for (std::size_t i = 0; i < lights; ++i) {
-        fluxes.push_back(fluxToTargets(flat.lights[i], targets));
+        fluxes.push_back(fluxToTargets(flat.lights[i], map, targets));
         sum += fluxes.back();
-        brightness = std::max(brightness, computeBrightness(flat.lights[i], whole.radius));
+        hasHidden = hasHidden || (hasNoExtent(flat.lights[i]) && fluxes.back() > 0.0);
+        brightness = std::max(brightness, computeBrightness(flat.lights[i], map, whole.radius));
     }
-    if (!(sum > 0.0) || !areLightPathsBetter(std::span(flat.lights).first(lights), fluxes, targets, roomArea(primitives, placed))) {
+    if (!(sum > 0.0)) {
         return;
     }
-    flat.features |= kFeatureCaustics;
+    flat.features |= kFeatureCaustics | (isBright ? kFeatureBrightEnvironment : 0U);
     flat.causticTargets = static_cast<std::uint32_t>(targets.size());
     flat.causticLights = static_cast<std::uint32_t>(lights);
     flat.brightness = static_cast<float>(brightness);
+    flat.hasHiddenCaustics = hasHidden;
     for (const BoundingSphere& target : targets) {
         flat.caustics.push_back(packTarget(target));
     }
@@ -401,6 +358,9 @@ void addCaustics(FlatScene& flat, const Scene& scene, const Primitives& primitiv
     flat.caustics.push_back(packTarget(whole));
     for (const PiecewiseConstantEntry& entry : buildPiecewiseConstant(fluxes)) {
         flat.caustics.emplace_back(entry.first, entry.last, entry.searchBegin, entry.searchEnd);
+    }
+    if (isBright) {
+        flat.caustics.insert(flat.caustics.end(), map.brightCells.begin(), map.brightCells.end());
     }
 }
 

@@ -35,6 +35,11 @@ struct PackedEnvironment {
     std::vector<uvec2> texels;                  // empty, as the cells are, if the map is black
     std::vector<uvec4> cells;                   // by which it is sampled
     uvec2 size{0}, cellCount{0};
+    // Light paths carry what exceeds the radiance `split`, in the strongest channel; its integral over all directions, and the cells with
+    // such directions, as scene_types.h says. None if all of the map is left to camera paths.
+    float split = 0.0F;
+    double brightIntegral = 0.0;
+    std::vector<uvec4> brightCells;
     std::uint64_t fingerprint = 0;  // of the texels
 };
 
@@ -101,6 +106,7 @@ struct FlatScene {
     std::uint32_t environmentLight = 0;  // index among lights, if the scene has kFeatureEnvironment
     std::vector<uvec4> caustics;         // as scene_types.h says; empty without kFeatureCaustics
     std::uint32_t causticTargets = 0, causticLights = 0;
+    bool hasHiddenCaustics = false;  // of lights without extent, which camera paths never find
     // Of the fingerprint what references, triangles and vertices make of it, once somebody has asked.
     std::shared_ptr<std::optional<std::uint64_t>> surfacesPrint = std::make_shared<std::optional<std::uint64_t>>();
     std::vector<Triangle> largest;  // the 64 largest triangles outside of shared meshes; not on the device

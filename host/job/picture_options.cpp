@@ -132,10 +132,10 @@ void addLightTransport(OptionTable& table, RenderSettings& settings)
                      [&settings](float limit) { settings.clampIndirect = limit; });
 }
 
-void addCaustics(OptionTable& table, RenderSettings& settings)
+void addCaustics(OptionTable& table, CausticsChoice& caustics)
 {
-    addEnum(table, "--caustics", "C", "Caustics of lights and specular surfaces by light paths: on or off [on]", {"off", "on"},
-            settings.caustics);
+    addEnum(table, "--caustics", "C", "Caustics by light paths: on, off or auto, where they have less noise [auto]", {"off", "on", "auto"},
+            caustics);
 }
 
 void addCourseEstimators(OptionTable& table, RenderSettings& settings)
@@ -226,6 +226,7 @@ RenderSettings settingsFor(const PictureOptions& options, const Camera& camera)
     const glm::uvec2 size = crop ? crop->size : options.size.value_or(defaultSize(camera));
     settings.width = size.x;
     settings.height = size.y;
+    settings.caustics = settings.caustics && options.caustics != CausticsChoice::Off;
     if (settings.rows && settings.rows->second > size.y) {
         const std::string rows = std::to_string(settings.rows->first) + ":" + std::to_string(settings.rows->second);
         throw UsageError(MessageId::OutOfRange, {part::place("--rows"), ": ", part::value(rows), ": the picture has ",

@@ -15,6 +15,8 @@
 
 namespace glim {
 
+enum class CausticsChoice { Off, On, Auto };
+
 struct PictureOptions {
     std::filesystem::path scene;
     std::optional<glm::uvec2> size;
@@ -43,7 +45,8 @@ struct PictureOptions {
     LookOptions look;
     Lens lens;
     SplitRule split = SplitRule::Sah;
-    RenderSettings settings;  // all but width and height
+    CausticsChoice caustics = CausticsChoice::Auto;
+    RenderSettings settings;  // all but width, height and what `caustics` decides
 };
 
 // Each adds options to the help's current group. They write into `options` or `settings`, which must outlive the table.
@@ -60,7 +63,7 @@ void addProjection(OptionTable& table, PictureOptions& options);
 void addCrop(OptionTable& table, PictureOptions& options);
 void addFocus(OptionTable& table, std::optional<glm::uvec2>& pixel);
 void addLightTransport(OptionTable& table, RenderSettings& settings);
-void addCaustics(OptionTable& table, RenderSettings& settings);
+void addCaustics(OptionTable& table, CausticsChoice& caustics);
 void addCourseEstimators(OptionTable& table, RenderSettings& settings);
 void addDevice(OptionTable& table, PictureOptions& options);
 

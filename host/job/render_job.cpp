@@ -110,7 +110,7 @@ void addJobOptions(OptionTable& table, RenderJob& options)
     addAdaptive(table, options.settings);
     addSampler(table, options.settings);
     addLightTransport(table, options.settings);
-    addCaustics(table, options.settings);
+    addCaustics(table, options.caustics);
     addCourseEstimators(table, options.settings);
     addCourseRule(table, options.settings);
     addDevice(table, options);

@@ -6,6 +6,7 @@
 #include "host/render/check_memory.hpp"
 #include "host/render/film_camera.hpp"
 #include "host/render/film_identity.hpp"
+#include "host/render/light_path_gain.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/render/parameters.hpp"
 #include "host/text.hpp"
@@ -17,7 +18,7 @@
 
 namespace glim {
 
-PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
+PictureFrame framePicture(SceneSession& session, const RenderJob& options)
 {
     const Camera camera = makeCamera(session.prepared().scene, options);
     RenderSettings settings = settingsFor(options, camera);
@@ -32,7 +33,12 @@ PictureFrame framePicture(const SceneSession& session, const RenderJob& options)
     }
     checkMemory(session.prepared(), settings, session.device().description(), options.checkpoint.isGiven());
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    return {flattenCamera(session.prepared(), camera, aspect, options.lens), settings,
+    const FlatCamera flatCamera = flattenCamera(session.prepared(), camera, aspect, options.lens);
+    if (options.caustics == CausticsChoice::Auto) {
+        settings.caustics = choosesLightPaths(session.prepared().flat, flatCamera, settings,
+                                              [&]() -> const Renderer& { return session.beginAhead(flatCamera, settings); });
+    }
+    return {flatCamera, settings,
             describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),
             camera.projection.crop};
 }

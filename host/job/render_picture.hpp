@@ -22,7 +22,7 @@ struct PictureFrame {
 
 // The session must be posed at the picture's time. Throws InputError for a camera that the scene lacks and for a picture that the device
 // has no memory for.
-PictureFrame framePicture(const SceneSession& session, const RenderJob& options);
+PictureFrame framePicture(SceneSession& session, const RenderJob& options);
 // What the film's light groups take, if it has some.
 void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame);
 

@@ -92,7 +92,7 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
         prepared_.bvh = {.depth = prepared_.bvh.depth, .cost = prepared_.bvh.cost};
         returnFreedMemory();
     }
-    if (!renderer_ || renderer_->settings().rows != settings.rows) {
+    if (!renderer_ || renderer_->settings().rows != settings.rows || renderer_->settings().caustics != settings.caustics) {
         renderer_.reset();  // so that no two are on the device
         renderer_.emplace(device_, prepared_.flat, camera, settings);
     } else if (isSceneNew_) {

@@ -48,7 +48,7 @@ Specialization makeConstants(FeatureMask features)
 Specialization specialize(const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, const DeviceDescription& device)
 {
     Specialization constants =
-        makeConstants(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics) &
+        makeConstants(featuresSeenBy(scene, camera) & ~(tracesLight(scene, settings) ? 0U : kFeatureCaustics | kFeatureBrightEnvironment) &
                       ~(settings.catcher ? 0U : kFeatureCatcher) & ~(settings.lightGroups.empty() ? kFeatureLightGroups : 0U));
     constants[kSpecWorkgroup] = settings.workgroup;
     constants[kSpecStackLevels] = scene.stackLevels;

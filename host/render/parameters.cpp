@@ -82,9 +82,12 @@ DeviceParameters::DeviceParameters(Device& device, const FlatScene& scene, const
     parameters_.environmentSize = scene.environmentMap->size;
     parameters_.environmentCells = scene.environmentMap->cellCount;
     parameters_.environmentRotation = scene.environmentRotation;
+    parameters_.environmentSplit = scene.environmentMap->split;
+    parameters_.brightCells = static_cast<std::uint32_t>(scene.environmentMap->brightCells.size());
     parameters_.causticTargets = scene.causticTargets;
     parameters_.causticLights = scene.causticLights;
     parameters_.splatScale = splatScale(scene);
+    parameters_.comparesPaths = settings.comparesPaths ? 1 : 0;
     parameters_.timeBegin = time.value_or(0.0F);
     parameters_.timeSpan = time ? 0.0F : 1.0F;
     parameters_.lightGroups = static_cast<std::uint32_t>(settings.lightGroups.size());

@@ -50,7 +50,8 @@ RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatC
 
 RenderResources::RenderResources(const RenderResources& other, const FlatScene& scene, const FlatCamera& camera,
                                  const RenderSettings& asked)
-    : RenderResources(other.device, other.shared, nullptr, scene, camera, asked)
+    : RenderResources(other.device, other.shared,
+                      other.schedule == chooseSchedule(asked, other.device.description()) ? other.compiled : nullptr, scene, camera, asked)
 {}
 
 bool RenderResources::hasKernels(const FlatScene& scene, const FlatCamera& camera) const

@@ -240,7 +240,13 @@ void Renderer::learn(std::uint32_t paths, const PassSeconds& seconds)
 bool Renderer::trace(const LightPass& pass, const std::function<bool()>& shouldContinue)
 {
     PassTracer tracer(*resources_);
+    const auto countRays = [&] {
+        readCounters();
+        return statistics_.cameraAndBounceRays + statistics_.shadowRays;
+    };
+    const std::uint64_t before = settings_.comparesPaths ? countRays() : 0;
     const auto seconds = light_->trace(tracer, films_->splats(), pass, shouldContinue);
+    statistics_.lightPathRays += settings_.comparesPaths ? countRays() - before : 0;
     refuseBrokenStatus(resources_->device.description(), resources_->paths());
     if (!seconds) {
         return false;

@@ -22,6 +22,7 @@ struct RenderStatistics {
     std::uint64_t samples = 0;         // over all pixels
     std::uint64_t resumedSamples = 0;  // of earlier runs, not among these
     std::uint64_t cameraAndBounceRays = 0, shadowRays = 0;
+    std::uint64_t lightPathRays = 0;                                        // among these, with RenderSettings::comparesPaths
     std::uint32_t transparencyCaps = 0, mediaCaps = 0, scatteringCaps = 0;  // as in Status
     double cutThroughput = 0.0;                                             // mean throughput, summed over the paths of scatteringCaps
     std::uint32_t loopCaps = 0, overflows = 0;                              // as in Status; a render with any of them throws

@@ -100,6 +100,7 @@ struct RenderSettings {
     std::vector<std::string> lightGroups;  // the film keeps their light apart; those of the scene, or none (keepsGroups())
     bool halves = false;                   // the samples in two independent halves too (film_halves.hpp); only with Adaptive::Off
     bool halvesLate = false;               // the halves begin when Renderer::keepHalves() is called
+    bool comparesPaths = false;            // splats count what camera paths would bring (light_path_gain.hpp), in place of clamped light
     bool notes = false;                    // kernels record what happens to the only path of a pass (replay.hpp)
 
     // How the work is cut: these change no bit of the picture.

@@ -28,12 +28,21 @@ LightContext previousContext(PathRay ray, PathState state)
 float misWeightOfHit(PathState state, float lightPdf);
 float misWeightOfSample(float lightPdf, float bsdfPdf);
 
+// Whether the light that the ray has hit is a caustic of the kind that light paths find.
+bool isCaustic(PathRay ray, PathState state)
+{
+    return hasFeature(kFeatureCaustics) && !(state.pdf > 0.0) && (ray.media & (kIsDiffuseFirst | kHasScattered)) == kIsDiffuseFirst;
+}
+
 // Radiance of the environment that an escaping ray has hit, times its MIS weight.
 vec3 weightedEnvironment(PathRay ray, PathState state)
 {
     bool scattered = hasFeature(kFeatureScattering) && (ray.media & kHasScattered) != 0u;
     if (state.bounce == 0u && render.hidesEnvironment != 0u && !scattered) {
         return vec3(0.0);
+    }
+    if (hasFeature(kFeatureBrightEnvironment) && isCaustic(ray, state)) {
+        return splitEnvironmentRadiance(ray.direction, false);
     }
     vec3 radiance = hasEnvironmentMap() ? environmentRadiance(ray.direction) : render.environment;
     return radiance * misWeightOfHit(state, pdfEnvironment(previousContext(ray, state), ray.direction, state.cosine));
@@ -46,8 +55,8 @@ vec3 weightedEmission(SurfaceInteraction si, MaterialData material, PathRay ray,
     if (hasFeature(kFeatureLines) && si.light == kUnsampledLight) {
         return emission;
     }
-    if (hasFeature(kFeatureCaustics) && !(state.pdf > 0.0) && (ray.media & (kIsDiffuseFirst | kHasScattered)) == kIsDiffuseFirst) {
-        return vec3(0.0);  // a caustic, which light paths have
+    if (isCaustic(ray, state)) {
+        return vec3(0.0);
     }
     if (all(equal(emission, vec3(0.0))) || !(state.pdf > 0.0)) {
         return emission;

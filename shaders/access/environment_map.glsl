@@ -36,8 +36,8 @@ vec3 worldFromMap(vec3 w)
     return vec3(rotation.x * w.x + rotation.y * w.z, w.y, rotation.x * w.z - rotation.y * w.x);
 }
 
-// Radiance from the direction w, unit, in world space.
-vec3 environmentRadiance(vec3 w)
+// The map's radiance in the direction w, unit, in world space.
+vec3 mapRadiance(vec3 w)
 {
     vec2 size = vec2(render.environmentSize);
     vec2 at = latLongFromDirection(mapFromWorld(w)) * size - 0.5;
@@ -48,7 +48,22 @@ vec3 environmentRadiance(vec3 w)
     uint top = uint(max(first.y, 0)), bottom = uint(min(first.y + 1, last.y));
     vec3 upper = mix(environmentTexel(left, top), environmentTexel(right, top), t.x);
     vec3 lower = mix(environmentTexel(left, bottom), environmentTexel(right, bottom), t.x);
-    return render.environment * mix(upper, lower, t.y);
+    return mix(upper, lower, t.y);
+}
+
+// Radiance from the direction w, unit, in world space.
+vec3 environmentRadiance(vec3 w)
+{
+    return render.environment * mapRadiance(w);
+}
+
+// Of it, what light paths carry, or else what is left for camera paths. The brightest directions have both.
+vec3 splitEnvironmentRadiance(vec3 w, bool isBright)
+{
+    vec3 radiance = mapRadiance(w);
+    float strongest = max(max(radiance.r, radiance.g), radiance.b);
+    float dim = strongest > render.environmentSplit ? render.environmentSplit / strongest : 1.0;
+    return render.environment * radiance * (isBright ? 1.0 - dim : dim);
 }
 
 // Density per steradian of sampleEnvironmentMap.
@@ -79,6 +94,16 @@ float placeInEntry(uvec4 entry, uint word)
     return min((float(word - entry.x) + 0.5) / (float(entry.y - entry.x) + 1.0), 0.99999994);
 }
 
+// place: in [0, 1)^2, across the cell and down.
+vec3 directionInCell(uint row, uint column, vec2 place)
+{
+    uvec2 cells = render.environmentCells;
+    vec4 bounds = uintBitsToFloat(texelFetch(sceneEnvironmentCells, int(cells.x * cells.y + 2u * row + 1u)));
+    float across = (float(column) + place.x) / float(cells.x);
+    float q = bounds.x + (bounds.y - bounds.x) * place.y;
+    return worldFromMap(directionFromLatLong(across, q, bounds.z != 0.0));
+}
+
 // A direction in world space and its density. u: two random words. Both are inverted, not drawn from an alias table: 64 Sobol' points then
 // have .2 to .5 of the variance in light from a studio (tests/bench/EXPERIMENTS.md).
 vec3 sampleEnvironmentMap(uvec2 u, out float pdf)
@@ -89,10 +114,7 @@ vec3 sampleEnvironmentMap(uvec2 u, out float pdf)
     uint row = findEntry(firstRow, cells.y, u.x, 2u, rowEntry);
     uint column = findEntry(row * cells.x, cells.x, u.y, 1u, cell);
     pdf = uintBitsToFloat(cell.z);
-    vec4 bounds = uintBitsToFloat(texelFetch(sceneEnvironmentCells, int(firstRow + 2u * row + 1u)));
-    float across = (float(column) + placeInEntry(cell, u.y)) / float(cells.x);
-    float q = bounds.x + (bounds.y - bounds.x) * placeInEntry(rowEntry, u.x);
-    return worldFromMap(directionFromLatLong(across, q, bounds.z != 0.0));
+    return directionInCell(row, column, vec2(placeInEntry(cell, u.y), placeInEntry(rowEntry, u.x)));
 }
 
 #endif

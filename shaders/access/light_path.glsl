@@ -12,9 +12,10 @@ struct LightRay {
     PathRay ray;
     vec3 flux;    // over the density of the ray, W; 0: there is none
     float range;  // of the light, at the first surface; 0: unlimited
+    float density;  // of the ray, per area across it and steradian; 0: the light has no extent
 };
 
-const LightRay kNoLightRay = LightRay(PathRay(vec3(0.0), kNoPrimitive, vec3(0.0, 0.0, 1.0), 0u), vec3(0.0), 0.0);
+const LightRay kNoLightRay = LightRay(PathRay(vec3(0.0), kNoPrimitive, vec3(0.0, 0.0, 1.0), 0u), vec3(0.0), 0.0, 0.0);
 
 vec4 fetchTarget(uint target)
 {
@@ -82,11 +83,13 @@ LightRay sampleSurfaceEmission(FlatLight light, vec2 uPoint, float uTarget, vec2
     }
     vec3 error = sphere ? sphereErrorBound(light.position, light.size) : triangleErrorBound(light.position, light.edge1, light.edge2, hasFeature(kFeatureLargeTriangles));
     uint primitive = rectangle && barycentric.x + barycentric.y > 1.0 ? light.otherPrimitive : light.primitive;
-    return LightRay(PathRay(offsetPoint(p, facing > 0.0 ? n : -n, error), primitive, w, 0u), radiance * (area * cosine / pdf), 0.0);
+    return LightRay(PathRay(offsetPoint(p, facing > 0.0 ? n : -n, error), primitive, w, 0u), radiance * (area * cosine / pdf), 0.0,
+                    pdf / (area * cosine));
 }
 
-// Through a uniform point of the targets' shadows on a plane across the light, from before the whole scene.
-LightRay sampleDirectionalEmission(FlatLight light, float uTarget, vec2 u)
+// Parallel light, through a uniform point of the targets' shadows on a plane across it, from before the whole scene. direction: unit, of
+// the rays, and their density per steradian. irradiance: of the plane.
+LightRay sampleParallelEmission(vec3 direction, vec3 irradiance, float density, float uTarget, vec2 u)
 {
     float sum = 0.0;
     uint i = 0u;
@@ -104,19 +107,36 @@ LightRay sampleDirectionalEmission(FlatLight light, float uTarget, vec2 u)
     } while (++i < render.causticTargets);
     vec4 target = fetchTarget(chosen);
     vec2 disk = sampleDisk(u) * target.w;
-    Frame frame = makeFrame(light.edge1);
+    Frame frame = makeFrame(direction);
     vec3 p = target.xyz + frame.x * disk.x + frame.y * disk.y;
     float covers = 0.0;
     i = 0u;
     do {
         vec4 other = fetchTarget(i);
         vec3 offset = p - other.xyz;
-        vec3 across = offset - light.edge1 * dot(offset, light.edge1);
+        vec3 across = offset - direction * dot(offset, direction);
         covers += i == chosen || dot(across, across) <= other.w * other.w ? 1.0 : 0.0;
     } while (++i < render.causticTargets);
     vec4 scene = fetchTarget(kSceneSphere);
-    vec3 origin = p - light.edge1 * (dot(p - scene.xyz, light.edge1) + 1.01 * scene.w);
-    return LightRay(PathRay(origin, kNoPrimitive, light.edge1, 0u), light.intensity * (sum / covers), 0.0);
+    vec3 origin = p - direction * (dot(p - scene.xyz, direction) + 1.01 * scene.w);
+    return LightRay(PathRay(origin, kNoPrimitive, direction, 0u), irradiance * (sum / covers), 0.0, density * covers / sum);
+}
+
+// From a direction of the environment map's bright part. words: which cell, and where in it.
+LightRay sampleEnvironmentEmission(uvec2 words, float uTarget, vec2 u)
+{
+    uint first = kFirstCausticLight + render.causticLights, low = 0u, high = render.brightCells - 1u, middle;
+    uvec4 entry;
+    bool going;
+    do {
+        middle = (low + high) >> 1u;
+        entry = texelFetch(sceneCaustics, int(first + middle));
+        going = searchesOn(entry, words.x, middle, low, high);
+    } while (going);
+    uint row = entry.z / render.environmentCells.x, column = entry.z - row * render.environmentCells.x;
+    vec3 w = directionInCell(row, column, vec2(placeInEntry(entry, words.x), unitFloat(words.y)));
+    float pdf = uintBitsToFloat(entry.w);
+    return sampleParallelEmission(-w, splitEnvironmentRadiance(w, true) / pdf, pdf, uTarget, u);
 }
 
 // Of all targets, together at most.
@@ -148,14 +168,14 @@ LightRay samplePointEmission(FlatLight light, float uTarget, vec2 u)
     if (!(pdf > 0.0) || !(falloff > 0.0)) {
         return kNoLightRay;
     }
-    return LightRay(PathRay(light.position, kNoPrimitive, w, 0u), light.intensity * (falloff / pdf), light.size);
+    return LightRay(PathRay(light.position, kNoPrimitive, w, 0u), light.intensity * (falloff / pdf), light.size, 0.0);
 }
 
 // The flux includes the light's probability. group: the light's.
 LightRay sampleEmission(SampleId id, out uint group)
 {
     uvec2 which = lightPathPair(id, render.lightPaths, kDimensionEmitter, kSobol);
-    vec2 uPoint = unitFloat(lightPathPair(id, render.lightPaths, kDimensionEmission, kSobol));
+    uvec2 where = lightPathPair(id, render.lightPaths, kDimensionEmission, kSobol);
     vec2 u = unitFloat(lightPathPair(id, render.lightPaths, kDimensionAim, kSobol));
     LightChoice choice = chooseCausticLight(which.x);
     FlatLight light = fetchLight(choice.light);
@@ -164,15 +184,18 @@ LightRay sampleEmission(SampleId id, out uint group)
     float uTarget = unitFloat(which.y);
     LightRay from = kNoLightRay;
     if (hasFeature(kFeatureTriangleLights | kFeatureRectangleLights | kFeatureSphereLights) && kind <= kSphereLight) {
-        from = sampleSurfaceEmission(light, uPoint, uTarget, u);
+        from = sampleSurfaceEmission(light, unitFloat(where), uTarget, u);
+    } else if (hasFeature(kFeatureBrightEnvironment) && kind == kEnvironmentLight) {
+        from = sampleEnvironmentEmission(where, uTarget, u);
     } else if (hasFeature(kFeaturePunctualLights)) {
         if (kind == kDirectionalLight) {
-            from = sampleDirectionalEmission(light, uTarget, u);
+            from = sampleParallelEmission(light.edge1, light.intensity, 0.0, uTarget, u);
         } else {
             from = samplePointEmission(light, uTarget, u);
         }
     }
     from.flux /= choice.probability;
+    from.density *= choice.probability;
     return from;
 }
 

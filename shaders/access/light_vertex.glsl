@@ -17,9 +17,10 @@ struct LightVertex {
     bool hasSplat;
     uint pixel;
     ShadowRay cameraRay;  // its contribution: to a sample of the pixel, over the path's flux
+    float cameraRatio;    // as state.pdf, of the whole path; only with comparesPaths
     bool hasNextRay;
     PathRay ray;      // the next one
-    PathState state;  // and its state
+    PathState state;  // and its state; pdf: that of this path from the light over that of a camera path; only with comparesPaths
 };
 
 // The surface as seen from its other side.
@@ -48,12 +49,12 @@ float adjointFactor(vec3 ng, vec3 wi, vec3 wo)
     return abs(dot(wo, ng)) / max(abs(dot(wi, ng)), 1e-12);
 }
 
-// A specular sample's weight for particles, from that for radiance: without refraction's scaling, and corrected as above.
-vec3 specularWeight(BsdfSample s, vec3 wi, vec3 ng, vec3 ns)
+// A specular sample's weight for particles over that for radiance: without refraction's scaling, and corrected as above.
+float specularFactor(BsdfSample s, vec3 wi, vec3 ng, vec3 ns)
 {
     bool refracts = (s.flags & kBsdfTransmission) != 0u;
     float shading = refracts ? abs(dot(wi, ns)) / max(abs(dot(s.wi, ns)), 1e-12) : 1.0;
-    return s.weight * (s.eta * s.eta * shading * adjointFactor(ng, wi, s.wi));
+    return s.eta * s.eta * shading * adjointFactor(ng, wi, s.wi);
 }
 
 BounceNumbers sampleLightBounceNumbers(SampleId id, uint bounce)
@@ -128,8 +129,8 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
         }
     } while (left != 0u);
     float pixels = float(render.width) * float(render.height);
-    vec3 contribution = state.throughput * toCamera.f * (adjointFactor(si.ng, wi, connection.wo) * connection.weight) *
-                        (pixels / float(render.lightPaths));
+    float cameraFactor = adjointFactor(si.ng, wi, connection.wo) * connection.weight;
+    vec3 contribution = state.throughput * toCamera.f * cameraFactor * (pixels / float(render.lightPaths));
     vec3 origin = offsetRayOrigin(si, connection.wo);
     vertex.cameraRay = ShadowRay(origin, si.primitive, connection.origin - origin, kNoPrimitive, contribution, 1.0);
     if (hasFeature(kFeatureMedia)) {
@@ -137,14 +138,24 @@ LightVertex shadeLightVertex(SampleId id, PathRay ray, PathHit hit, PathState st
     }
     vertex.hasSplat = any(notEqual(contribution, vec3(0.0))) && state.bounce + 1u >= render.minPathLength;
     bool specular = (next.flags & kBsdfDelta) != 0u;
-    vec3 weight = specular          ? specularWeight(next, wi, si.ng, sampled.frame.z)
-                  : next.pdf > 0.0 ? onwards.f * (adjointFactor(si.ng, wi, next.wi) / next.pdf)
-                                   : vec3(0.0);
+    float factor = specular          ? specularFactor(next, wi, si.ng, sampled.frame.z)
+                   : next.pdf > 0.0 ? adjointFactor(si.ng, wi, next.wi) / next.pdf
+                                    : 0.0;
+    vec3 weight = (specular ? next.weight : onwards.f) * factor;
     vec3 throughput = state.throughput * weight;
     float continuation = continuationProbability(throughput, 1.0, state.bounce);
     vertex.ray = spawnRay(si, next.wi);
     vertex.ray.media = mediaOfNextRay(ray.media, si, sampled, next.wi);
-    vertex.state = PathState(throughput / continuation, 0.0, 0.0, 1.0, state.bounce + 1u, state.normal);
+    float ratio = 0.0;
+    vertex.cameraRatio = 0.0;
+    if (render.comparesPaths != 0u) {
+        // A camera path comes the other way: it samples the BSDF there, its radiance is scaled where it is refracted, and it ends by roulette
+        // about as often.
+        float eta2 = next.eta * next.eta;
+        vertex.cameraRatio = state.pdf * float(render.lightPaths) / max(toCamera.pdf * cameraFactor * pixels, 1e-30);
+        ratio = state.pdf / max(factor * (specular ? 1.0 / (eta2 * eta2) : onwards.pdf), 1e-30);
+    }
+    vertex.state = PathState(throughput / continuation, ratio, 0.0, 1.0, state.bounce + 1u, state.normal);
     bool ends = state.bounce + 1u >= min(render.maxBounces, render.maxPathLength) || (isFirst && !specular);
     vertex.hasNextRay = !ends && any(notEqual(throughput, vec3(0.0))) && u.roulette < continuation;
     return vertex;

@@ -34,8 +34,9 @@ const float kMaxUnits = 4611686018427387904.0;  // 2^62
         } \
     }
 
-// contribution: to a sample of the picture's pixel. pathLength: surfaces met between camera and light. group: of lights.
-void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength, uint group)
+// contribution: to a sample of the picture's pixel. pathLength: surfaces met between camera and light. group: of lights. ratio: of what a
+// camera path would have brought, of interest with comparesPaths.
+void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength, uint group, float ratio)
 {
     uint pixels = uint(splats.length()) / max(render.lightGroups, 1u), at = pixel - pass.tileBegin;
     if (pixel < pass.tileBegin || at >= pixels) {
@@ -50,6 +51,10 @@ void addSplat(uint pixel, uint sampleIndex, vec3 contribution, uint pathLength, 
     vec3 units = light.kept * render.splatScale;
     uint mostHigh = 0xffffffffu / max(render.lightGroups, 1u);  // what all groups have together must fit too
     float removed = light.removed * render.splatScale;
+    if (render.comparesPaths != 0u) {
+        vec3 scaled = contribution * render.splatScale;
+        removed = min(dot(scaled, scaled) * (1.0 / 3.0) * ratio * kComparedShare, 0.5 * kMaxUnits);
+    }
     if (!(max(max(units.r, units.g), max(units.b, removed)) < kMaxUnits)) {
         reportSplatOverflow();
         return;

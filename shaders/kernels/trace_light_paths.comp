@@ -26,6 +26,7 @@ struct Path {
     PathState state;
     PathRadiance light;  // the path's flux
     float range;
+    float cameraRatio;  // of the light on its way to the camera, as in LightVertex
 };
 
 #define pathSides(path) (kFronts | kBacks)
@@ -56,7 +57,7 @@ bool takePath(uint entry, out Path path, inout Work work)
     SampleId id = makeLightPathId(slot);
     beginLightPath(id);
     if ((entry & kUnbegun) == 0u) {
-        path = Path(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot), 0.0);
+        path = Path(slot, id, fetchRay(slot), fetchState(slot), fetchRadiance(slot), 0.0, 0.0);
     } else {
         uint group;
         LightRay light = sampleEmission(id, group);
@@ -65,7 +66,8 @@ bool takePath(uint entry, out Path path, inout Work work)
             light.ray.media = mediaAround(light.ray.origin, steps);
             work.steps += steps.nodes + steps.primitives;
         }
-        path = Path(slot, id, light.ray, PathState(vec3(1.0), 0.0, 0.0, 1.0, 0u, group), PathRadiance(light.flux, 0.0), light.range);
+        path = Path(slot, id, light.ray, PathState(vec3(1.0), light.density, 0.0, 1.0, 0u, group), PathRadiance(light.flux, 0.0),
+                    light.range, 0.0);
     }
     return any(notEqual(path.light.radiance, vec3(0.0)));
 }
@@ -77,7 +79,7 @@ VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps
 
 void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
 {
-    addSplat(pixel, path.id.index, contribution, pathLength, path.state.normal);
+    addSplat(pixel, path.id.index, contribution, pathLength, path.state.normal, path.cameraRatio);
 }
 
 void visitMiss(inout Path path) {}
@@ -88,6 +90,7 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
         path.light.radiance *= rangeFalloff(hit.t * hit.t, path.range);
     }
     LightVertex vertex = shadeLightVertex(path.id, path.ray, hit, path.state);
+    path.cameraRatio = vertex.cameraRatio;
     if (vertex.hasSplat) {
         traceConnection(path, vertex.cameraRay, path.light.radiance * vertex.cameraRay.contribution, vertex.pixel, work, steps, traced);
     }

@@ -51,7 +51,8 @@ GLIM_SHARED_BEGIN
     FEATURE(Motion, 39, "moving nodes") /* while the shutter is open; with Instances */ \
     FEATURE(LightGroups, 40, "light groups") \
     FEATURE(LightClusters, 41, "clusters of lights") /* lamps of many triangles; with LightTree */ \
-    FEATURE(RoughTransmission, 42, "rough transmission") /* with Transmission */
+    FEATURE(RoughTransmission, 42, "rough transmission") /* with Transmission */ \
+    FEATURE(BrightEnvironment, 43, "caustics of the environment") /* of its map's bright part; with Caustics and EnvironmentMap */
 // clang-format on
 
 #ifdef __cplusplus

@@ -212,12 +212,19 @@ struct RenderParameters {
     uvec2 environmentSize;                   // texels of the map
     uvec2 environmentCells;                  // of its sampler
     vec2 environmentRotation;                // cosine and sine of its rotation
+    float environmentSplit;                  // radiance of the map from which on light paths carry the rest of its light
+    uint brightCells;                        // at which they begin
     uint causticTargets, causticLights;      // how many there are (scene_types.h)
     uint lightPaths;                         // per sample of the picture
     float splatScale;                        // units of a splat per W/(sr m^2), a power of two
+    uint comparesPaths;                      // 1: Splat::clamped is what kComparedShare says
     float timeBegin, timeSpan;               // of paths, as in FlatMotionKey; of a span of 0 all have the same time
     uint lightGroups;                        // how many; 0: the film has none
 };
+
+// With comparesPaths, splats sum up in `clamped` the square of the light that a camera path would have brought by the same path, so
+// weighted that its mean is that of camera paths; times splatScale^2 and this, with room for strong light.
+GLIM_CONST float kComparedShare = 2.2737367544323206e-13f;  // 2^-42
 
 // Whether a path samples lights at the surface that it meets after `bounce` others. That light has then met bounce + 1 surfaces. At the
 // last hit no light is sampled: only emission is added.

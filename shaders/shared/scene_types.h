@@ -296,8 +296,9 @@ GLIM_CONST uint kClusterNode = 0x40000000u;
 GLIM_CONST float kUniformShare = 0.1f;  // of the choices between finite lights that ignore importance
 
 // Where light paths are aimed (kFeatureCaustics): kMaxCausticTargets texels, a bounding sphere each (centre, radius); another one around
-// the whole scene; then for each light but the environment the random words that choose it (first, last, where to search: first entry, last
-// entry).
+// the whole scene; then for each light the random words that choose it (first, last, where to search: first entry, last entry); then,
+// with kFeatureBrightEnvironment, for each bright cell of the environment map the random words that choose it, its index, and the density
+// of its directions per steradian. Without that feature the environment is not among the lights.
 GLIM_CONST uint kMaxCausticTargets = 8u;
 GLIM_CONST uint kSceneSphere = kMaxCausticTargets;
 GLIM_CONST uint kFirstCausticLight = kMaxCausticTargets + 1u;

@@ -1,4 +1,5 @@
 // Light paths begin with the power that their lamp sends to the targets, and lamps are chosen by that power.
+#include "host/flatten/environment_map.hpp"
 #include "test_kernels.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/irradiance_formulas.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 
 namespace glim::light_path_test {
@@ -34,6 +36,12 @@ std::vector<Result> begin(const SceneOnDevice& scene, const std::vector<uint>& w
 {
     EXPECT_NE(scene.flat.features & kFeatureCaustics, 0U);
     KernelTest test = scene.test(test_kernels::light_path_test);
+    test.parameters().environment = scene.flat.environment;
+    test.parameters().environmentSize = scene.flat.environmentMap->size;
+    test.parameters().environmentCells = scene.flat.environmentMap->cellCount;
+    test.parameters().environmentRotation = scene.flat.environmentRotation;
+    test.parameters().environmentSplit = scene.flat.environmentMap->split;
+    test.parameters().brightCells = static_cast<uint>(scene.flat.environmentMap->brightCells.size());
     test.parameters().causticTargets = scene.flat.causticTargets;
     test.parameters().causticLights = scene.flat.causticLights;
     test.parameters().lightPaths = static_cast<uint>(words.size());
@@ -166,6 +174,37 @@ Lamp sunLamp()
     return punctualLamp({"", PunctualLight::Kind::Directional, {0, 0, 0}, glm::normalize(vec3(-0.7F, -0.6F, 0.1F)), vec3(3.0F)});
 }
 
+// The bright part of a map: what exceeds the split in the strongest channel. Over its bilinear interpolant, in fine steps.
+Lamp sunOfMap()
+{
+    constexpr std::uint32_t kWidth = 64, kHeight = 32;
+    const auto map = std::make_shared<RadianceMap>(RadianceMap{kWidth, kHeight, std::vector<vec3>(kWidth * kHeight, vec3(0.1F)), 0});
+    map->texels[9 * kWidth + 63] = map->texels[21 * kWidth + 30] = vec3(300.0F);
+    map->texels[21 * kWidth + 31] = vec3(100.0F);
+    const double split = static_cast<double>(packEnvironmentMap(map).split);
+    double irradiance = 0.0;
+    constexpr int kSteps = 20;  // to a texel
+    for (std::uint32_t y = 0; y < kHeight * kSteps; ++y) {
+        const double v = (y + 0.5) / kSteps - 0.5,
+                     omega = 2.0 * kPi * kPi / (kWidth * kHeight * kSteps * kSteps) * std::sin(kPi * (y + 0.5) / (kHeight * kSteps));
+        for (std::uint32_t x = 0; x < kWidth * kSteps; ++x) {
+            const double u = (x + 0.5) / kSteps - 0.5;
+            double radiance = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                const double i = std::floor(u) + k % 2, j = std::floor(v) + k / 2;
+                const auto row = static_cast<std::size_t>(std::clamp(j, 0.0, kHeight - 1.0)),
+                           column = static_cast<std::size_t>(i + kWidth) % kWidth;
+                radiance += (1.0 - std::abs(u - i)) * (1.0 - std::abs(v - j)) * static_cast<double>(map->texels[row * kWidth + column].r);
+            }
+            irradiance += omega * std::max(0.0, radiance - split);
+        }
+    }
+    return {[map](SceneBuilder& builder) {
+                builder.environment(Environment{vec3(2.0F, 1.0F, 1.0F), map, 0.7F, true, "test"});
+            },
+            [irradiance](const Ball& ball) { return 2.0 * irradiance * kPi * ball.radius * ball.radius; }};
+}
+
 // Two that overlap and one beside the lamps, which the planes of the polygons cut.
 const std::vector<Ball> kBalls = {{{0.0, -0.5, 0.0}, 0.5}, {{0.4, -0.3, 0.2}, 0.4}, {{-2.0, 1.3, 0.2}, 0.6}};
 // Two that overlap and are small however near one goes: 1/3000 of the distance.
@@ -229,7 +268,9 @@ const test::Named<Setting> kSettings[] = {
     {"spot", {{spotLamp(0.05F, 0.3F)}}},
     {"narrowSpot", {{spotLamp(1e-4F, 1e-2F)}, kBalls, true}},
     {"directional", {{sunLamp()}}},
-    {"allOfThem", {{polygonLamp(false, true), polygonLamp(true, false), sphereLamp(), pointLamp(), spotLamp(0.05F, 0.3F), sunLamp()}}},
+    {"environment", {{sunOfMap()}}},
+    {"allOfThem",
+     {{polygonLamp(false, true), polygonLamp(true, false), sphereLamp(), pointLamp(), spotLamp(0.05F, 0.3F), sunLamp(), sunOfMap()}}},
     {"trianglesFarAway", {{polygonLamp(false, true)}, kFarBalls}},
     {"pointFarAway", {{pointLamp()}, kFarBalls}},
     {"triangleWithin", {{polygonLamp(false, false)}, kBallsAround}},

@@ -18,7 +18,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        addSplat(c.pixel, c.sampleIndex, c.contribution, c.pathLength, c.group);
+        addSplat(c.pixel, c.sampleIndex, c.contribution, c.pathLength, c.group, 0.0);
     }
     endTest();
 }

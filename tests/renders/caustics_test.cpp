@@ -12,9 +12,13 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <memory>
+#include <numbers>
 
 namespace glim {
 namespace {
+
+using std::numbers::pi;
 
 // A white floor and back wall, a lamp above, and what the variants add.
 struct Variant {
@@ -107,6 +111,26 @@ Variant balls(Lamp lamp = Lamp::Rectangle)
 Variant changed(Variant v, std::function<void(Scene&)> change)
 {
     v.change = std::move(change);
+    return v;
+}
+
+// A sky of a map with a sun that fills a texel, some 11 degrees wide.
+void addSunnySky(Scene& scene)
+{
+    const auto map = std::make_shared<RadianceMap>(RadianceMap{32, 16, std::vector<glm::vec3>(32 * 16, glm::vec3(0.2F, 0.3F, 0.5F)), 0});
+    map->texels[4 * 32 + 11] = glm::vec3(70.0F, 60.0F, 50.0F);
+    scene.environment = Environment{glm::vec3(0.8F, 0.9F, 1.0F), map, 1.2F, true, "test"};
+}
+
+// Balls on a floor, under the sky alone.
+Variant outdoors()
+{
+    Variant v;
+    v.builder.quad({glm::vec3(-2, -1, 2), {2, -1, 2}, {2, -1, -2}, {-2, -1, -2}}, v.builder.lambert(glm::vec3(0.7F, 0.6F, 0.5F)))
+        .perspective({0.0F, 2.0F, 4.0F}, {0, -1, 0}, 0.8F);
+    addGlass(v.builder);
+    addMirror(v.builder);
+    v.change = addSunnySky;
     return v;
 }
 
@@ -306,6 +330,28 @@ const NamedVariant kVariants[] = {
      [] {
          return projected({Projection::Model::RadialTangential, std::nullopt, {}, {-0.1}, Crop{{9, 12}, {32, 32}, {64, 48}}});
      }},
+    // Light paths carry the bright part of the sky, and camera paths the rest.
+    {"sun", [] { return outdoors(); }},
+    {"sunAndLamp", [] { return changed(balls(), addSunnySky); }},
+    {"sunOnWater",  // from below
+     [] {
+         return changed(outdoors(), [](Scene& scene) {
+             Material m = solid();
+             m.ior = 1.3F;
+             m.absorption = {0.05F, 0.1F, 0.2F};
+             addSmooth(scene, m, glm::vec3(0.0F), 6.0F);
+             addSunnySky(scene);
+         });
+     }},
+    {"severalSuns",
+     [] {
+         return changed(outdoors(), [](Scene& scene) {
+             addSunnySky(scene);
+             auto map = std::make_shared<RadianceMap>(*scene.environment->map);
+             map->texels[3 * 32 + 20] = map->texels[3 * 32 + 21] = map->texels[5 * 32 + 31] = glm::vec3(10.0F, 20.0F, 40.0F);
+             scene.environment->map = map;
+         });
+     }},
     {"threeBounces",
      [] {
          Variant v = balls();
@@ -342,6 +388,22 @@ TEST_P(CausticsTest, AgreeWithPathTracing)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CausticsTest, testing::ValuesIn(kVariants), test::nameOfParameter);
 
+// Up to 1 %, ten times the angle by which the directions of the lights differ.
+void expectSameCaustics(const Film& one, const Film& other)
+{
+    const double a = meanOfSplats(one), b = meanOfSplats(other);
+    const auto errorOf = [](const Film& film) {
+        double sum = 0.0;
+        for (const SplatMoments& splat : film.splats) {
+            sum += static_cast<double>(splat.squares.g) / ((splat.blocks - 1.0) * splat.count);
+        }
+        return std::sqrt(sum) / static_cast<double>(film.splats.size());
+    };
+    std::printf("caustics %.6f and %.6f, +- %.1e\n", a, b, std::hypot(errorOf(one), errorOf(other)));
+    EXPECT_GT(a, 0.0);
+    EXPECT_LE(std::abs(a - b), twoSidedLimit(kCausticsLevel) * std::hypot(errorOf(one), errorOf(other)) + 0.01 * b);
+}
+
 // Directional light is that of a point light far away.
 TEST(CausticsOfLightsTest, DirectionalLightIsAPointFarAway)
 {
@@ -357,18 +419,30 @@ TEST(CausticsOfLightsTest, DirectionalLightIsAPointFarAway)
     };
     const Film sun = render({"", PunctualLight::Kind::Directional, {0, 0, 0}, direction, glm::vec3(3.0F)});
     const Film lamp = render({"", PunctualLight::Kind::Point, -kDistance * direction, direction, glm::vec3(3.0F * kDistance * kDistance)});
-    const double a = meanOfSplats(sun), b = meanOfSplats(lamp);
-    const auto errorOf = [](const Film& film) {
-        double sum = 0.0;
-        for (const SplatMoments& splat : film.splats) {
-            sum += static_cast<double>(splat.squares.g) / ((splat.blocks - 1.0) * splat.count);
-        }
-        return std::sqrt(sum) / static_cast<double>(film.splats.size());
+    expectSameCaustics(sun, lamp);
+}
+
+// So is a sun of a map that is .7 degrees wide.
+TEST(CausticsOfLightsTest, SmallSunOfAMapIsADirectionalLight)
+{
+    constexpr std::uint32_t kWidth = 512, kHeight = 256, kColumn = 180, kRow = 70;
+    const auto map = std::make_shared<RadianceMap>(RadianceMap{kWidth, kHeight, std::vector<glm::vec3>(kWidth * kHeight), 0});
+    map->texels[kRow * kWidth + kColumn] = glm::vec3(3e4F);
+    const double polar = (kRow + 0.5) * pi / kHeight, azimuth = 2.0 * pi * ((kColumn + 0.5) / kWidth - 0.5);
+    const glm::vec3 towards(std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth));
+    // The texel's solid angle, which the bilinear interpolant does not change.
+    const auto irradiance = static_cast<float>(3e4 * 2.0 * pi / kWidth * pi / kHeight * std::sin(polar));
+    const auto render = [&](bool fromMap) {
+        SceneBuilder b;
+        b.quad({glm::vec3(-2, -1, 2), {2, -1, 2}, {2, -1, -2}, {-2, -1, -2}}, b.lambert(glm::vec3(0.7F)));
+        addGlass(b);
+        addMirror(b);
+        b.perspective({0.0F, 2.0F, 4.0F}, {0, -1, 0}, 0.8F);
+        fromMap ? b.environment(Environment{glm::vec3(1.0F), map, 0.0F, true, "test"})
+                : b.light({"", PunctualLight::Kind::Directional, {0, 0, 0}, -towards, glm::vec3(irradiance)});
+        return renderScene(b.scene(), squareSettings(32, samplesFor(512)));
     };
-    std::printf("caustics of the sun %.6f, of a far lamp %.6f, +- %.1e\n", a, b, std::hypot(errorOf(sun), errorOf(lamp)));
-    EXPECT_GT(a, 0.0);
-    // Ten times 1 / distance, by which directions differ over the balls.
-    EXPECT_LE(std::abs(a - b), twoSidedLimit(kCausticsLevel) * std::hypot(errorOf(sun), errorOf(lamp)) + 0.01 * b);
+    expectSameCaustics(render(true), render(false));
 }
 
 TEST(CausticsSceneTest, NeedsLampsAndSpecularSurfaces)
@@ -380,14 +454,21 @@ TEST(CausticsSceneTest, NeedsLampsAndSpecularSurfaces)
     addGlass(sky);
     sky.environment(glm::vec3(1.0F));
     EXPECT_FALSE(needs(sky.scene()));
-    // A mirror for a wall and a lamp for a ceiling: camera paths meet it more often.
-    SceneBuilder bright;
-    bright.quad({glm::vec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, bright.lambert(glm::vec3(0.0F), glm::vec3(1.0F)))
-        .quad({glm::vec3(-1, -1, -1), {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}}, bright.mirror(glm::vec3(0.9F)))
-        .quad({glm::vec3(-1, -1, 1), {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}}, bright.lambert(glm::vec3(0.7F)));
-    EXPECT_FALSE(needs(bright.scene()));
-    bright.light({"", PunctualLight::Kind::Point, {0, 0, 0}, {0, 0, -1}, glm::vec3(1.0F)});
-    EXPECT_TRUE(needs(bright.scene()));
+    Scene sunny = sky.scene();
+    addSunnySky(sunny);
+    EXPECT_TRUE(needs(sunny));
+    EXPECT_NE(flattened(sunny).features & kFeatureBrightEnvironment, 0U);
+    auto map = std::make_shared<RadianceMap>(*sunny.environment->map);  // as wide as a studio's lights
+    for (std::size_t i = 0; i < map->texels.size() / 2; ++i) {
+        map->texels[i] = i % 32 < 8 ? glm::vec3(4.0F) : map->texels[i];
+    }
+    sunny.environment->map = map;
+    EXPECT_FALSE(needs(sunny));
+    EXPECT_EQ(flattened(balls().builder.scene()).features & kFeatureBrightEnvironment, 0U);
+    EXPECT_FALSE(flattened(balls().builder.scene()).hasHiddenCaustics);
+    SceneBuilder pointed = balls().builder;
+    pointed.light({"", PunctualLight::Kind::Point, {0, 0, 0}, {0, 0, -1}, glm::vec3(1.0F)});
+    EXPECT_TRUE(flattened(pointed.scene()).hasHiddenCaustics);
     Scene rough = room().builder.scene();
     addSmooth(rough, plastic(0.1F), {0, 0, 0}, 0.5F);
     EXPECT_FALSE(needs(rough));

@@ -73,8 +73,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GoldenTest,
                                          Golden{"light_directional", true}, Golden{"many_lights", true}, Golden{"veach_mis", true},
                                          Golden{"furnace", true}, Golden{"closed_room", true}, Golden{"shaded_lamp", false},
                                          Golden{"materials", true, 64}, Golden{"textures", true}, Golden{"normal_map", true},
-                                         Golden{"alpha", true}, Golden{"liquid", false}, Golden{"wax", false}, Golden{"product", false},
-                                         Golden{"car_paint", true}, Golden{"cloth", true}),
+                                         Golden{"alpha", true}, Golden{"liquid", false}, Golden{"wax", false}, Golden{"sun_glass", false},
+                                         Golden{"sun_water", false}, Golden{"product", false}, Golden{"car_paint", true},
+                                         Golden{"cloth", true}),
                          [](const testing::TestParamInfo<Golden>& golden) { return std::string(golden.param.scene); });
 
 }  // namespace

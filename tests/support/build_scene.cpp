@@ -86,6 +86,12 @@ SceneBuilder& SceneBuilder::environment(const glm::vec3& radiance)
     return *this;
 }
 
+SceneBuilder& SceneBuilder::environment(const Environment& environment)
+{
+    scene_.environment = environment;
+    return *this;
+}
+
 void SceneBuilder::addCamera(Camera camera, const glm::vec3& position, const glm::vec3& target)
 {
     camera.position = position;

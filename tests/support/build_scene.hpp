@@ -24,6 +24,7 @@ public:
     SceneBuilder& cube(float half, std::uint32_t material, bool inwards);
     SceneBuilder& light(const PunctualLight& light);
     SceneBuilder& environment(const glm::vec3& radiance);
+    SceneBuilder& environment(const Environment& environment);
     // Looks from `position` at `target`; up is +y, or -z when looking along y.
     SceneBuilder& perspective(const glm::vec3& position, const glm::vec3& target, float yfov);
     SceneBuilder& orthographic(const glm::vec3& position, const glm::vec3& target, float halfSize);

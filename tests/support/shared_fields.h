@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 492u;
+GLIM_CONST uint kSharedWords = 495u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -99,8 +99,8 @@ U(parameters.width) U(parameters.height) U(parameters.seed) U(parameters.maxBoun
 U(parameters.maxPathLength) U(parameters.lightCount) U(parameters.finiteLights) F(parameters.infiniteImportance) U(parameters.environmentLight) F3(parameters.environment)
 F(parameters.clampIndirect) U(parameters.canarySteps) U(parameters.triangleCount) U(parameters.instanceCount) U(parameters.firstInstanceRef) U(parameters.firstUv) U(parameters.firstTangent)
 U(parameters.firstColor) U(parameters.firstMedium) U(parameters.firstScattering) U(parameters.hidesEnvironment) U(parameters.darkensObjects) U2(parameters.environmentSize) U2(parameters.environmentCells)
-F2(parameters.environmentRotation) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
-F(parameters.splatScale) F(parameters.timeBegin) F(parameters.timeSpan) U(parameters.lightGroups)
+F2(parameters.environmentRotation) F(parameters.environmentSplit) U(parameters.brightCells) U(parameters.causticTargets) U(parameters.causticLights) U(parameters.lightPaths)
+F(parameters.splatScale) U(parameters.comparesPaths) F(parameters.timeBegin) F(parameters.timeSpan) U(parameters.lightGroups)
 U(course_.refCount) F(course_.continuation) F(course_.tolerance) U(course_.constantSamples)
 U(pixelMoments.count) U(pixelMoments.blocks) F3(pixelMoments.mean) F3(pixelMoments.squares) F(pixelMoments.alpha)
 F3(pixelMoments.albedo) F3(pixelMoments.normal) F(pixelMoments.depth) F(pixelMoments.clamped)

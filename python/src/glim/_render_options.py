@@ -181,8 +181,8 @@ class RenderOptions(TypedDict, total=False):
     clamp_indirect: float
     """Clamp indirect light to this radiance (biased), 1e-30 to 1e+30 [off]"""
 
-    caustics: Union[bool, Literal["off", "on"]]
-    """Caustics of lights and specular surfaces by light paths: on or off [on]"""
+    caustics: Union[bool, Literal["off", "on", "auto"]]
+    """Caustics by light paths: on, off or auto, where they have less noise [auto]"""
 
     direct: Literal["mis", "lights", "hemisphere", "bsdf"]
     """Direct light: mis, lights, hemisphere or bsdf [mis]"""
