@@ -1,4 +1,4 @@
-// --schedule and --path-capacity.
+// --schedule, --path-capacity and --caustics.
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/test_device.hpp"
@@ -54,6 +54,27 @@ TEST(PathCapacityTest, ChangesNoBit)
             EXPECT_EQ(digest({"--path-capacity", capacity}), usual) << schedule << ' ' << capacity;
         }
     }
+}
+
+// By default the paths with less noise find caustics; the film is that of a render which is told so.
+TEST(CausticsChoiceTest, GivesTheFilmOfWhatItChooses)
+{
+    const ScratchFolder folder;
+    const auto statisticsOf = [&](const std::vector<std::string>& more) {
+        GlimCall call;
+        call.arguments = {"render", sceneFile("sun_glass.gltf"), "-o", "x.exr", "--size", "16x16", "--spp", "64", "--stats", "s.json"};
+        call.arguments.insert(call.arguments.end(), more.begin(), more.end());
+        call.folder = folder.path();
+        const GlimRun run = runGlim(call);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return json::parse(readFileBytes(folder / "s.json"));
+    };
+    const json automatic = statisticsOf({}), on = statisticsOf({"--caustics", "on"}), off = statisticsOf({"--caustics", "off"});
+    EXPECT_EQ(automatic.at("digest"), on.at("digest"));
+    EXPECT_EQ(automatic.at("rays"), on.at("rays"));  // those of the small picture are not among them
+    EXPECT_NE(automatic.at("digest"), off.at("digest"));
+    EXPECT_NE(off.at("settings").get<std::string>().find("caustics=off"), std::string::npos);
+    EXPECT_EQ(on.at("settings").get<std::string>().find("caustics"), std::string::npos);
 }
 
 }  // namespace
