@@ -114,7 +114,9 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
 
 Renderer& SceneSession::beginAhead(const FlatCamera& camera, const RenderSettings& settings)
 {
-    begin(camera, settings);
+    RenderSettings ahead = settings;
+    ahead.caustics = renderer_ ? renderer_->settings().caustics : settings.caustics;  // no new renderer for this
+    begin(camera, ahead);
     isAhead_ = true;
     return *renderer_;
 }
