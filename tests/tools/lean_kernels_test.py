@@ -50,6 +50,9 @@ USERS = {
     "RectangleLights": ["shade_surface"],
     "LightTree": ["shade_surface"],
     "LightClusters": ["shade_surface"],
+    "LightGroups": ["trace_shadow", "shade_surface"],
+    "RoughTransmission": ["shade_surface"],
+    "BrightEnvironment": ["shade_surface"],
     "Instances": ["trace_closest", "trace_shadow", "shade_surface"],
     "Motion": ["trace_closest", "trace_shadow", "shade_surface"],
     "LightsInMedia": [],  # trace_light_paths
@@ -60,6 +63,8 @@ USERS = {
 # What a feature needs before it has any code.
 NEEDS = {
     "LightClusters": ["LightTree"],
+    "RoughTransmission": ["Principled", "Transmission"],
+    "BrightEnvironment": ["Environment", "EnvironmentMap", "Caustics"],
     "Textures": ["Principled"],
     "NormalMaps": ["Principled", "Textures"],
     "VertexColors": ["Principled"],
