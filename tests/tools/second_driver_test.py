@@ -15,8 +15,8 @@ from render_farm.exr_header import read_header_of  # noqa: E402
 
 def render(glim, scene, film, **environment):
     """What its pixels are told by."""
-    subprocess.run([glim, "render", scene, "-o", film, "--size", "32x32", "--spp", "64", "--light-group", "each",
-                    "--progress", "none"], check=True,
+    groups = "some=lamp 1*" if os.path.basename(scene) == "many_lights.gltf" else "each"  # at most eight
+    subprocess.run([glim, "render", scene, "-o", film, "--size", "32x32", "--spp", "64", "--light-group", groups, "--progress", "none"], check=True,
                    env={**os.environ, **environment})
     return read_header_of(film)["glim:pixels"]
 

@@ -10,6 +10,11 @@ BITS_SIZE, BITS_SPP = 48, 64
 GOLDEN_SIZE = 48
 
 
+def bits_words(scene):
+    """By light groups, of which there are at most eight."""
+    return ["--spp", str(BITS_SPP), "--light-group", "some=lamp 1*" if scene == "many_lights" else "each"]
+
+
 class CheckError(Exception):
     pass
 
