@@ -50,7 +50,7 @@ set(onlyInCi
     MaterialTest.NestedGlassInAFurnaceIsInvisible
     MaterialTest.NoMaterialReflectsMoreThanItGets
     ScatteringTest.SlabsReflectAndTransmitAsByAddingAndDoubling
-    MaterialTest.RoughPanesKeepTheAlbedoOfSingleScattering
+    MaterialTest.RoughPanesKeepTheirTint
     HardMaterialTest.H45AlphaAtTheDeltaLimit
     HardMaterialTest.H48BlackAttenuation
     HardLightTest.OfCoincidentLightsTheFirstShines

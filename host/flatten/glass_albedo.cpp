@@ -18,12 +18,12 @@ using std::numbers::pi;
 constexpr std::size_t kIndices = kGlassDenser + kGlassThinner;
 
 // Two numbers of Fibonacci, of a lattice in the unit square.
-constexpr std::size_t kNodes = 987, kStep = 610;
+constexpr std::size_t kGlassNodes = 987, kStep = 610;
 
 // In the place of 0 at the ends of the table's axes: what the functions tend to.
-constexpr double kMinSeen = 1e-6, kMinGlassAlpha = 1e-4;
+constexpr double kMinGlassCosine = 1e-6, kMinGlassAlpha = 1e-4;
 
-double share(std::size_t i, std::size_t count) { return static_cast<double>(i) / static_cast<double>(count - 1); }
+double shareOfSteps(std::size_t i, std::size_t count) { return static_cast<double>(i) / static_cast<double>(count - 1); }
 
 // An interface between two media.
 struct Interface {
@@ -34,7 +34,7 @@ Interface interfaceAt(std::size_t i)
 {
     const bool denser = i < kGlassDenser;
     const double root = std::lerp(static_cast<double>(kMinGlassRoot), static_cast<double>(kMaxGlassRoot),
-                                  denser ? share(i, kGlassDenser) : share(i - kGlassDenser, kGlassThinner));
+                                  denser ? shareOfSteps(i, kGlassDenser) : shareOfSteps(i - kGlassDenser, kGlassThinner));
     const double r = std::pow(root, 4.0) * (denser ? 1.0 : -1.0);
     return {(1.0 + r) / (1.0 - r), r * r};
 }
@@ -52,11 +52,11 @@ std::array<glm::dvec3, kIndices> integrateGlassAlbedo(const std::array<Interface
 {
     const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine)), length = stretchedLength({sine, 0.0, cosine}, {alpha, alpha});
     const glm::dvec3 w(alpha * sine / length, 0.0, cosine / length);
-    constexpr double weight = 1.0 / kNodes;
+    constexpr double weight = 1.0 / kGlassNodes;
     std::array<glm::dvec3, kIndices> sums{};
-    for (std::size_t node = 0; node < kNodes; ++node) {
-        const double phi = pi * static_cast<double>(node * kStep % kNodes) / kNodes;
-        const double q = (static_cast<double>(node) + 0.5) / kNodes * (1.0 + w.z), r = std::sqrt(q * (2.0 - q));
+    for (std::size_t node = 0; node < kGlassNodes; ++node) {
+        const double phi = pi * static_cast<double>(node * kStep % kGlassNodes) / kGlassNodes;
+        const double q = (static_cast<double>(node) + 0.5) / kGlassNodes * (1.0 + w.z), r = std::sqrt(q * (2.0 - q));
         const glm::dvec3 c(r * std::cos(phi) + w.x, r * std::sin(phi), 1.0 - q + w.z);
         const glm::dvec3 h = glm::normalize(glm::dvec3(alpha * c.x, alpha * c.y, c.z));
         const double vh = std::min(sine * h.x + cosine * h.z, 1.0), reflectedZ = 2.0 * vh * h.z - cosine;
@@ -94,7 +94,7 @@ std::array<double, kGlassCosines> makeCosineWeights()
 {
     std::array<double, kGlassCosines> weights{};
     for (std::size_t i = 0; i + 1 < kGlassCosines; ++i) {
-        const double x0 = share(i, kGlassCosines), x1 = share(i + 1, kGlassCosines);
+        const double x0 = shareOfSteps(i, kGlassCosines), x1 = shareOfSteps(i + 1, kGlassCosines);
         const double m8 = std::pow(x1, 8.0) - std::pow(x0, 8.0), m9 = 8.0 / 9.0 * (std::pow(x1, 9.0) - std::pow(x0, 9.0));
         weights[i] += (x1 * m8 - m9) / (x1 - x0);
         weights[i + 1] += (m9 - x0 * m8) / (x1 - x0);
@@ -118,10 +118,10 @@ std::vector<uvec4> makeGlassAlbedoTable()
     const std::array<double, kGlassCosines> cosineWeights = makeCosineWeights();
     std::vector<uvec4> table(kGlassAlbedos + std::size_t{kGlassAlphas} * kIndices);
     parallelFor(kGlassAlphas, std::thread::hardware_concurrency(), [&](std::size_t row) {
-        const double alpha = std::max(std::pow(share(row, kGlassAlphas), 2.0), kMinGlassAlpha);
+        const double alpha = std::max(std::pow(shareOfSteps(row, kGlassAlphas), 2.0), kMinGlassAlpha);
         std::array<glm::dvec3, kIndices> averages{};
         for (std::size_t column = 0; column < kGlassCosines; ++column) {
-            const double cosine = std::max(std::pow(share(column, kGlassCosines), 4.0), kMinSeen);
+            const double cosine = std::max(std::pow(shareOfSteps(column, kGlassCosines), 4.0), kMinGlassCosine);
             const auto albedos = integrateGlassAlbedo(interfaces, cosine, alpha);
             for (std::size_t i = 0; i < kIndices; ++i) {
                 table[column + kGlassCosines * (row + kGlassAlphas * i)] = roundedTexel(albedos[i], 0.0);

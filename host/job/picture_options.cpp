@@ -63,7 +63,7 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
     addRadius("--point-radius", "Radius of points, in metres", options.pointRadius);
     addRadius("--line-radius", "Radius of lines, in metres", options.lineRadius);
     addFloor(table, options);
-    table.addEach("--light-group", "NAME=LIGHT,...|each", "Lights that the film keeps apart, by name of light or material; repeatable",
+    table.addEach("--light-group", "NAME=LIGHT,...|each", "Lights kept apart in the film, by name of light or material; repeatable",
                   [&options](const OptionValue& value) { parseLightGroup(value, options.lightGroups); });
     table.addEach("--set", "POINTER=VALUE", "Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable",
                   [&options](const OptionValue& value) { options.edits.push_back(parseEdit(value)); });

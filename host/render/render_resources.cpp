@@ -23,6 +23,17 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
     return !course && rulesOf(device.deviceClass).persistent ? Schedule::Persistent : Schedule::Wavefront;
 }
 
+namespace {
+
+// But for what a specialization says.
+bool hasSameKernels(const RenderResources& other, const RenderSettings& asked)
+{
+    return other.schedule == chooseSchedule(asked, other.device.description()) && other.settings.course == asked.course &&
+           isCourse(other.settings.adaptive) == isCourse(asked.adaptive);
+}
+
+}  // namespace
+
 RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> resources, std::shared_ptr<const CompiledKernels> kernels,
                                  const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked)
     : device(of),
@@ -50,8 +61,7 @@ RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatC
 
 RenderResources::RenderResources(const RenderResources& other, const FlatScene& scene, const FlatCamera& camera,
                                  const RenderSettings& asked)
-    : RenderResources(other.device, other.shared,
-                      other.schedule == chooseSchedule(asked, other.device.description()) ? other.compiled : nullptr, scene, camera, asked)
+    : RenderResources(other.device, other.shared, hasSameKernels(other, asked) ? other.compiled : nullptr, scene, camera, asked)
 {}
 
 bool RenderResources::hasKernels(const FlatScene& scene, const FlatCamera& camera) const

@@ -43,6 +43,8 @@ TEST(CommittedScenes, LoadWithNoSurprises)
         {"alpha.gltf", {16, 1, 1, 1, 0}},
         {"liquid.gltf", {1586, 4, 0, 1, 0}},
         {"wax.gltf", {3906, 0, 0, 1, 0}},
+        {"sun_glass.gltf", {50, 1, 0, 2, 0}},
+        {"sun_water.gltf", {3532, 1, 0, 1, 0}},
         {"product.gltf", {3458, 0, 0, 1, 1}},
         {"car_paint.gltf", {4562, 0, 0, 1, 0}},
         {"cloth.gltf", {2270, 3, 0, 1, 0}},

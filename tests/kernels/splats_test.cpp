@@ -212,7 +212,7 @@ TEST(SplatsTest, EachLightGroupHasItsOwnSums)
 TEST(SplatsTest, OverflowOfAllGroupsTogetherIsReported)
 {
     const std::vector<Case> cases{{kFirst, 0, 1, vec3(0x1p40F), 2}};
-    EXPECT_EQ(add(cases, 1.0F, INFINITY, 0x7fffff0000000000ULL).status.splatOverflows, 0U);
+    EXPECT_EQ(add({{kFirst, 0, 1, vec3(0x1p40F)}}, 1.0F, INFINITY, 0x7fffff0000000000ULL).status.splatOverflows, 0U);
     EXPECT_EQ(add(cases, 1.0F, INFINITY, 0x3fffff0000000000ULL, 4).status.splatOverflows, 3U) << "of its three channels";
     EXPECT_EQ(add(cases, 1.0F, INFINITY, 0x3ffff00000000000ULL, 4).status.splatOverflows, 0U);
 }

@@ -10,13 +10,14 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(ROOT, "tools"))
+from device_check.places import group_words  # noqa: E402
 from render_farm.exr_header import read_header_of  # noqa: E402
 
 
 def render(glim, scene, film, **environment):
     """What its pixels are told by."""
-    groups = "some=lamp 1*" if os.path.basename(scene) == "many_lights.gltf" else "each"  # at most eight
-    subprocess.run([glim, "render", scene, "-o", film, "--size", "32x32", "--spp", "64", "--light-group", groups, "--progress", "none"], check=True,
+    words = group_words(os.path.splitext(os.path.basename(scene))[0])
+    subprocess.run([glim, "render", scene, "-o", film, "--size", "32x32", "--spp", "64", "--progress", "none", *words], check=True,
                    env={**os.environ, **environment})
     return read_header_of(film)["glim:pixels"]
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import zipfile
 
-from places import BITS_SIZE, GOLDEN_SIZE, ROOT, CheckError, bits_words, render_words
+from places import BITS_SIZE, BITS_SPP, GOLDEN_SIZE, ROOT, CheckError, group_words, render_words
 
 MOST_BYTES = 64 << 20
 LAYER = "VK_LAYER_KHRONOS_validation"
@@ -153,7 +153,7 @@ def draw_films(folder, glim):
     for scene in all_scenes():
         path, film = os.path.join(folder, "scenes", scene + ".gltf"), os.path.join(films, scene + ".exr")
         words = render_words(glim, path, film, BITS_SIZE, BITS_SIZE)
-        run(*words, *bits_words(scene), "--device", "llvmpipe")
+        run(*words, "--spp", str(BITS_SPP), *group_words(scene), "--device", "llvmpipe")
     devices = json.loads(run(glim, "devices", "--json"))
     return next("%s, %s" % (d["name"], d["driver"]) for d in devices if "llvmpipe" in d["name"])
 

@@ -6,7 +6,7 @@ import re
 
 from films import digest_of, equal_pixels, mean_ratio, read_layers
 from machine import caches_in
-from places import BITS_SIZE, PERSISTENT_SCENES, CheckError, bits_words, render_words
+from places import BITS_SIZE, BITS_SPP, PERSISTENT_SCENES, CheckError, group_words, render_words
 
 SCHEDULES = ("wavefront", "persistent")
 PICTURE = ("R", "G", "B")
@@ -98,7 +98,8 @@ class Check:
             scene, schedule, turn = task
             film = "bits.%s.%s.%d" % (scene, schedule, turn)
             try:
-                path, _ = self.render(runner, scene, film, BITS_SIZE, *bits_words(scene), "--schedule", schedule, *self.device_words())
+                path, _ = self.render(runner, scene, film, BITS_SIZE, "--spp", str(BITS_SPP), *group_words(scene), "--schedule", schedule,
+                                      *self.device_words())
                 layers[task] = read_layers(path)
                 record["scenes"][scene]["hashes"]["%s %d" % (schedule, turn)] = digest_of(layers[task])
             except CheckError as error:

@@ -62,7 +62,7 @@ class RenderOptions(TypedDict, total=False):
     """Material that catches shadows on transparency, as floor; repeatable"""
 
     light_group: Union[str, Sequence[str], Dict[str, Union[str, Sequence[str]]]]
-    """Lights that the film keeps apart, by name of light or material; repeatable"""
+    """Lights kept apart in the film, by name of light or material; repeatable"""
 
     set: Dict[str, Any]
     """Set the value at a glTF pointer, as in /materials/paint/alphaCutoff=0.5; repeatable"""
