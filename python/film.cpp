@@ -217,7 +217,8 @@ Film shrunk(const Film& film, std::uint32_t most)
 void saveExr(const PythonFilm& film, const std::filesystem::path& path)
 {
     if (const auto& denoising = film.denoising()) {
-        writeFilm(path, film.film(), {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+        const DenoisedLayers layers = layersOf(*denoising);
+        writeFilm(path, film.film(), {.denoised = &layers});
     } else {
         writeFilm(path, film.film());
     }

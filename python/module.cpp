@@ -247,10 +247,6 @@ private:
         session->denoiser().open(options);
         const PictureFrame frame = framePicture(*session, options);
         if (resumed != nullptr) {
-            if (options.denoise) {
-                throw InputError(MessageId::Conflict, {part::place("--denoise"),
-                                                       " needs two halves of the samples, which a film that is resumed does not keep."});
-            }
             if (const std::optional<Message> difference = findOther(resumed->film(), *session, frame, options)) {
                 throw InputError(Message(*difference, {"the film cannot be resumed: ", difference->sentence, "."}));
             }
@@ -259,8 +255,9 @@ private:
         if (resumed != nullptr) {
             resumeFrom(renderer, resumed->stored(), "the film");
         }
-        // Of whole pages by uniform sampling the film says all.
-        const bool wholePages = frame.settings.adaptive == Adaptive::Off && frame.settings.sampleEnd % kPageSamples == 0;
+        // Of whole pages by uniform sampling the film says all but halves.
+        const bool wholePages =
+            frame.settings.adaptive == Adaptive::Off && frame.settings.sampleEnd % kPageSamples == 0 && !frame.settings.halves;
         RenderedFilm rendered = renderPicture(renderer, options, session->denoiser(), std::ref(watcher),
                                               [&] { return !wholePages || !renderer.plan().isDone(); });
         if (renderer.statistics().samples + renderer.statistics().resumedSamples == 0) {

@@ -152,6 +152,8 @@ set(onlyInCi
     DenoiseTest.MergedFilmsAreThoseOfTheirSamples
     DenoiseTest.FramesThatAreThereKeepTheirDenoisedPicture
     DenoiseTest.EndsAtATargetOfTheDenoisedPicture
+    DenoiseTest.ResumedItHasTheBitsOfOneRun
+    DenoiseTest.FilmsWithoutHalvesAreNotResumed
     DeviceFaultTest.ALostDeviceLeavesTheLastCheckpoint
     DeviceFaultTest.ADeviceThatIsLostAfterTheRenderLeavesTheFilm
     DeviceFaultTest.MemoryThatIsRefusedIsNamed

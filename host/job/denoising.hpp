@@ -6,6 +6,7 @@
 #include "host/denoise/oidn.hpp"
 #include "host/job/render_job.hpp"
 #include "host/json.hpp"
+#include "host/render/film_file.hpp"
 #include "host/render/renderer.hpp"
 
 #include <filesystem>
@@ -34,6 +35,12 @@ private:
     std::optional<Oidn> oidn_;
     std::filesystem::path oidnPath_;
 };
+
+// The layers of its film. They view the picture.
+inline DenoisedLayers layersOf(const Denoising& denoising)
+{
+    return {denoising.picture.radiance, denoising.picture.error, denoising.denoiser};
+}
 
 // By what factor the error is above the target; at most 1: it is reached.
 double timesToTarget(const DenoisedError& error, const ErrorTarget& target);

@@ -93,6 +93,10 @@ void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name)
         say(MessageId::BegunAnew, {name, " has no finished block of samples, so the render begins anew"});
         return;
     }
+    if (settings.halves && !(stored.checkpoint && stored.checkpoint->hasHalves())) {
+        refuse(MessageId::Unsupported, {"but not their two halves, which ", part::place("--denoise"), " needs; expected ",
+                                        part::expected("a film by --denoise with --checkpoint or --resume")});
+    }
     std::optional<Checkpoint> checkpoint = stored.checkpoint ? std::move(stored.checkpoint) : makeCheckpoint(std::move(stored.film));
     if (!checkpoint) {
         refuse(MessageId::Unsupported, {"expected ", part::expected("one range that ends with a page of " + std::to_string(kPageSamples)),

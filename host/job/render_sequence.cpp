@@ -101,11 +101,12 @@ std::optional<FilmDigests> writeFilmOf(const RenderJob& options, const RenderedF
     if (!options.output) {
         return std::nullopt;
     }
+    FilmAdditions additions{.checkpoint = rendered.checkpoint ? &*rendered.checkpoint : nullptr};
+    std::optional<DenoisedLayers> layers;
     if (denoising) {
-        return writeFilm(*options.output, rendered.film, {denoising->picture.radiance, denoising->picture.error, denoising->denoiser});
+        additions.denoised = &layers.emplace(layersOf(*denoising));
     }
-    return rendered.checkpoint ? writeFilm(*options.output, rendered.film, *rendered.checkpoint)
-                               : writeFilm(*options.output, rendered.film);
+    return writeFilm(*options.output, rendered.film, additions);
 }
 
 RenderedFilm renderWatched(Renderer& renderer, const RenderJob& options, FilmDenoiser& denoiser, CheckpointWriter& writer,

@@ -124,7 +124,6 @@ const Rule<RenderJob> kRenderRules[] = {
     {{"--resume"}, listsSuspects, MessageId::Conflict, "the brightest samples of earlier runs are not kept; expected ", "no --suspects"},
     {{"--denoised"}, isWithoutTarget, MessageId::Requires, "has no effect without a target; expected ", "--target-rmse or --target-relmse"},
     {{"--rows"}, isDenoised, MessageId::Conflict, "lacks the rows around the band, which --denoise needs; expected ", "the whole picture"},
-    {{"--checkpoint", "--resume"}, isDenoised, MessageId::Conflict, "does not keep the two halves of the samples that --denoise needs"},
     {{"--replay"}, isDenoised, MessageId::Conflict, "makes no picture; expected ", "no --denoise"},
 };
 
@@ -277,7 +276,7 @@ void resolveTarget(const OptionTable& table, RenderJob& job)
 bool isDenoisedUnasked(const RenderJob& job)
 {
     constexpr std::uint32_t kMaxSamples = 1024;
-    constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 23U;  // the halves of more take over 2 GB
+    constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 23U;  // the halves of more take over 2.8 GB
     const RenderSettings& settings = job.settings;
     const std::uint32_t samples = settings.sampleEnd - settings.sampleBegin;
     const std::uint64_t pixels = job.size ? std::uint64_t{job.size->x} * job.size->y : 0;

@@ -28,7 +28,8 @@ std::string writeBoth(const std::string& stem, const Film& film, Aov aov, const 
 {
     try {
         if (denoised) {
-            writeFilm(stem + ".exr", film, {denoised->radiance, denoised->error, NlMeans::kName});
+            const DenoisedLayers layers{denoised->radiance, denoised->error, NlMeans::kName};
+            writeFilm(stem + ".exr", film, {.denoised = &layers});
             writeFilmPicture(stem + ".png", showDenoised(film, denoised->radiance), aov, look);
         } else {
             writeFilm(stem + ".exr", film);

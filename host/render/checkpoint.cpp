@@ -62,4 +62,17 @@ std::string computeDigest(const Checkpoint& checkpoint)
     return digest.finish();
 }
 
+std::string computeHalvesDigest(const Checkpoint& checkpoint)
+{
+    if (!checkpoint.hasHalves()) {
+        return "";
+    }
+    Digest digest;
+    for (const FilmMoments& half : checkpoint.halves) {
+        digest.add(half.pixels);
+        digest.add(half.splats);
+    }
+    return digest.finish();
+}
+
 }  // namespace glim

@@ -3,6 +3,7 @@
 
 #include "host/render/sample_plan.hpp"
 
+#include <array>
 #include <optional>
 
 namespace glim {
@@ -14,6 +15,9 @@ struct Checkpoint {
     FilmMoments page;  // finished blocks that are not folded; what there is none of is empty
     FilmMoments
         common;  // of --adaptive neighbours: the samples that all pixels share, and the light paths with them. The film has them too
+    std::array<FilmMoments, 2> halves;  // of film and page together, of a render that keeps them (FilmHalves)
+
+    bool hasHalves() const { return !halves[0].pixels.empty() || !halves[1].pixels.empty(); }
 };
 
 // The film that it shows.
@@ -23,7 +27,9 @@ Film makeFilm(Checkpoint checkpoint);
 // if it lacks samples.
 std::optional<Checkpoint> makeCheckpoint(Film film);
 
-// SHA-256 of all of it but its film's time and device.
+// SHA-256 of all of it but its halves and its film's time and device.
 std::string computeDigest(const Checkpoint& checkpoint);
+// That of the halves, which earlier builds do not know; empty if there are none.
+std::string computeHalvesDigest(const Checkpoint& checkpoint);
 
 }  // namespace glim

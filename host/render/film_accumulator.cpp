@@ -161,14 +161,14 @@ FilmMoments FilmAccumulator::pageSoFar()
     return page;
 }
 
-void FilmAccumulator::takeHalves(std::uint32_t sample)
+void FilmAccumulator::takeHalves(std::uint32_t sample, bool isLast)
 {
     const bool isFirst = sample <= FilmHalves::nextEnd(settings_.sampleBegin);
     if (keepsHalves_ && !halves_ && (isFirst || sample % kPageSamples == 0)) {
         halves_.emplace(settings_, isFirst ? settings_.sampleBegin : sample);
     }
     if (halves_) {
-        halves_->take(pageSoFar(), sample);
+        isLast ? halves_->takeLast(pageSoFar(), sample) : halves_->take(pageSoFar(), sample);
     }
 }
 
@@ -207,6 +207,11 @@ Checkpoint FilmAccumulator::checkpoint() const
 {
     Checkpoint checkpoint;
     checkpoint.film = folded();
+    if (halves_) {
+        checkpoint.halves = {halves_->films()[0], halves_->films()[1]};
+        checkpoint.page = halves_->page();
+        return checkpoint;
+    }
     FilmMoments& page = checkpoint.page;
     page.groups = GroupMoments(settings_.groupCount(), 0);
     const auto append = [](auto& pages, const auto& more) { pages.insert(pages.end(), more.begin(), more.end()); };
@@ -231,6 +236,9 @@ Checkpoint FilmAccumulator::checkpoint() const
 void FilmAccumulator::resume(Checkpoint checkpoint)
 {
     finishFold();
+    if (keepsHalves_) {
+        halves_.emplace(settings_, std::move(checkpoint.halves), checkpoint.page, checkpoint.progress.sample);
+    }
     const Film fresh = std::exchange(film_, std::move(checkpoint.film));
     film_.identity = fresh.identity;  // without what a film's file says of its camera
     film_.device += film_.device.find(fresh.device) == std::string::npos ? "; " + fresh.device : "";

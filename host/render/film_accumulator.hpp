@@ -50,8 +50,8 @@ public:
     void foldCommon();
     // Of this picture, if the settings ask for halves that are late. Before there is half a block they lose no sample.
     void keepHalves() { keepsHalves_ = settings_.halves; }
-    // The samples that are not folded, which end before `sample`, into the halves, if there are any.
-    void takeHalves(std::uint32_t sample);
+    // The samples that are not folded, which end before `sample`, into the halves, if there are any. Last: the render is at its end.
+    void takeHalves(std::uint32_t sample, bool isLast);
 
     // All samples so far; sampling may go on.
     Film sum();
@@ -61,7 +61,7 @@ public:
     // The samples that are not folded, as a film of its own. They are gone then.
     std::vector<PixelMoments> takePages();
 
-    // Without the blocks that are not finished.
+    // Without the blocks that are not finished; if halves are kept, without those that some pixel has not finished.
     Checkpoint checkpoint() const;
     void resume(Checkpoint checkpoint);
 

@@ -33,6 +33,8 @@ constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenE
 
 constexpr const char* kBackground = "glim:background";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
+constexpr const char* kHalvesDigest = "glim:halvesDigest";                                    // of those with halves
+constexpr const char* kHalves[] = {"firstHalf.", "secondHalf."};
 
 bool hasErrors(const Film& film)
 {
@@ -81,6 +83,9 @@ void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& 
     }
     addMoments(checkpoint.page, groups, run, image, "page.");
     addMoments(checkpoint.common, groups, run, image, "common.");
+    for (std::size_t i = 0; i < 2; ++i) {
+        addMoments(checkpoint.halves[i], {}, run, image, kHalves[i]);
+    }
     if (const auto& adaptive = checkpoint.progress.adaptive) {
         const auto copy = [&run](const std::vector<std::uint32_t>& counts) {
             const std::span<const std::uint32_t> part = run.of(counts);
@@ -133,15 +138,10 @@ Image headerOf(const Film& film, const FilmDigests& digests)
     return image;
 }
 
-// What a file may have besides the film.
-struct Additions {
-    const Checkpoint* checkpoint = nullptr;
-    const DenoisedLayers* denoised = nullptr;
-};
-
 // In bands of rows: all planes at once would take as much memory as the film again, and more time.
 std::optional<FilmDigests> write(
-    const fs::path& path, const Film& film, const Additions& additions, const std::function<bool()>& shouldContinue = [] { return true; })
+    const fs::path& path, const Film& film, const FilmAdditions& additions,
+    const std::function<bool()>& shouldContinue = [] { return true; })
 {
     const Checkpoint* checkpoint = additions.checkpoint;
     const char* folded = checkpoint == nullptr ? kNothing : placeOfFolded(film, *checkpoint);
@@ -164,6 +164,9 @@ std::optional<FilmDigests> write(
     if (checkpoint != nullptr) {
         header.attributes[kProgressDigest] = computeDigest(*checkpoint);
         header.attributes[kProgress] = progressText(*checkpoint, folded);
+        if (checkpoint->hasHalves()) {
+            header.attributes[kHalvesDigest] = computeHalvesDigest(*checkpoint);
+        }
     }
     addRows(header, 0, 0);
     ExrWriter writer(path, header);
@@ -310,6 +313,12 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
         takeCounts(path, image, "blocksLeft.X", adaptive->blocksLeft);
     }
     checkDigest(path, "checkpoint", computeDigest(checkpoint), attribute<std::string>(path, image, kProgressDigest));
+    if (const std::string digest = textIfPresent(image, kHalvesDigest); !digest.empty()) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            takeMoments(path, image, {}, checkpoint.halves[i], kHalves[i]);
+        }
+        checkDigest(path, "halves", computeHalvesDigest(checkpoint), digest);
+    }
     return checkpoint;
 }
 
@@ -336,11 +345,9 @@ std::string sampleRangesText(const Film& film)
     return text.str();
 }
 
-FilmDigests writeFilm(const fs::path& path, const Film& film) { return write(path, film, {}).value(); }
-
-FilmDigests writeFilm(const fs::path& path, const Film& film, const DenoisedLayers& denoised)
+FilmDigests writeFilm(const fs::path& path, const Film& film, const FilmAdditions& additions)
 {
-    return write(path, film, {.denoised = &denoised}).value();
+    return write(path, film, additions).value();
 }
 
 std::optional<std::vector<glm::vec3>> readDenoised(const fs::path& path)

@@ -11,7 +11,8 @@
 // splats.RGB, splatSquares.RGB, splatClamped.X, splatCount.X, splatBlocks.X   SplatMoments
 //
 // A checkpoint is such a film and has more layers: page.* and folded.*, the finished blocks of the last page and the pages before it; with
-// --adaptive neighbours common.*, chosen.X and blocksLeft.X (checkpoint.hpp). The attribute glim:progress says where the render is.
+// --adaptive neighbours common.*, chosen.X and blocksLeft.X; with --denoise firstHalf.* and secondHalf.* (checkpoint.hpp). The attribute
+// glim:progress says where the render is.
 //
 // denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
 //
@@ -30,15 +31,19 @@
 
 namespace glim {
 
-// Returns the digests, which the file has.
-FilmDigests writeFilm(const std::filesystem::path& path, const Film& film);
-
-// What the file has besides the film.
 struct DenoisedLayers {
     std::span<const glm::vec3> radiance, error;
     std::string denoiser;
 };
-FilmDigests writeFilm(const std::filesystem::path& path, const Film& film, const DenoisedLayers& denoised);
+
+// What a file may have besides the film.
+struct FilmAdditions {
+    const Checkpoint* checkpoint = nullptr;
+    const DenoisedLayers* denoised = nullptr;
+};
+
+// Returns the digests, which the file has.
+FilmDigests writeFilm(const std::filesystem::path& path, const Film& film, const FilmAdditions& additions = {});
 // The denoised radiance that a film's file has besides, if it has.
 std::optional<std::vector<glm::vec3>> readDenoised(const std::filesystem::path& path);
 

@@ -1,18 +1,13 @@
 #include "host/render/film_halves.hpp"
 
 #include "host/render/film_identity.hpp"
+#include "host/render/sample_plan.hpp"
 #include "shaders/shared/limits.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace glim {
 namespace {
-
-// The number of the block, counted from sample 0.
-std::uint32_t ordinalOf(std::uint32_t sample)
-{
-    return sample < 2 * kFirstBlockSamples ? sample / kFirstBlockSamples : sample < kBlockSamples ? 2 : 2 + sample / kBlockSamples;
-}
 
 SplatMoments withoutMoments(const SplatMoments& all, const SplatMoments& part)
 {
@@ -25,6 +20,22 @@ void foldRest(std::vector<Moments>& film, const std::vector<Moments>& all, const
     film.resize(all.size(), Moments{});
     for (std::size_t i = 0; i < all.size(); ++i) {
         film[i] = foldMoments(film[i], part.empty() ? withoutMoments(all[i], Moments{}) : withoutMoments(all[i], part[i]));
+    }
+}
+
+void foldRest(FilmMoments& half, const FilmMoments& all, const FilmMoments& part)
+{
+    foldRest(half.pixels, all.pixels, part.pixels);
+    foldRest(half.splats, all.splats, part.splats);
+}
+
+// Leaves `other` empty.
+void join(FilmMoments& half, FilmMoments& other)
+{
+    if (half.pixels.empty()) {
+        std::swap(half, other);
+    } else {
+        foldMoments(half, std::exchange(other, {}));
     }
 }
 
@@ -53,10 +64,34 @@ PixelMoments withoutMoments(const PixelMoments& all, const PixelMoments& part)
     return rest;
 }
 
+HalfSizes::Place HalfSizes::add(std::uint32_t samples, std::uint32_t size)
+{
+    Place place{sizes_[0] + sizes_[1] <= size && samples >= size / 2, sizes_[1] < sizes_[0] ? 1U : 0U};
+    if (place.joins) {
+        sizes_ = {sizes_[0] + sizes_[1], 0};
+        place.half = 1;
+    }
+    sizes_[place.half] += samples;
+    return place;
+}
+
 FilmHalves::FilmHalves(const RenderSettings& settings, std::uint32_t begin)
     : films_{emptyFilm(settings), emptyFilm(settings)},
       taken_(begin)
 {}
+
+FilmHalves::FilmHalves(const RenderSettings& settings, std::array<FilmMoments, 2> halves, FilmMoments page, std::uint32_t sample)
+    : FilmHalves(settings)
+{
+    for (std::size_t i = 0; i < 2; ++i) {
+        static_cast<FilmMoments&>(films_[i]) = std::move(halves[i]);
+    }
+    before_ = std::move(page);
+    while (taken_ < sample) {
+        sizes_.add(blockEnd(taken_) - taken_, blockSamples(taken_));
+        taken_ = blockEnd(taken_);
+    }
+}
 
 std::uint32_t FilmHalves::nextEnd(std::uint32_t sample)
 {
@@ -64,15 +99,31 @@ std::uint32_t FilmHalves::nextEnd(std::uint32_t sample)
     return (sample / half + 1) * half;
 }
 
-void FilmHalves::take(const FilmMoments& page, std::uint32_t sample)
+void FilmHalves::take(FilmMoments page, std::uint32_t sample)
+{
+    if (sample == blockEnd(taken_)) {
+        takeLast(std::move(page), sample);
+    } else {
+        middle_ = std::move(page);
+    }
+}
+
+void FilmHalves::takeLast(FilmMoments page, std::uint32_t sample)
 {
     if (sample == taken_) {
         return;
     }
-    Film& half = films_[ordinalOf(taken_) % 2];
-    foldRest(half.pixels, page.pixels, before_.pixels);
-    foldRest(half.splats, page.splats, before_.splats);
-    before_ = sample % kPageSamples == 0 ? FilmMoments() : page;
+    const HalfSizes::Place place = sizes_.add(sample - taken_, blockSamples(taken_));
+    if (place.joins) {
+        join(films_[0], films_[1]);
+    }
+    Film& half = films_[place.half];
+    if (!middle_.pixels.empty()) {
+        foldRest(half, middle_, before_);
+        before_ = std::exchange(middle_, {});
+    }
+    foldRest(half, page, before_);
+    before_ = sample % kPageSamples == 0 ? FilmMoments() : std::move(page);
     taken_ = sample;
 }
 

@@ -138,7 +138,7 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
     if (atEnd) {
         atEnd();
     }
-    films_->takeHalves(plan_.endOfSamples());
+    films_->takeHalves(plan_.endOfSamples(), true);
     Film film = films_->takeFilm();
     statistics_.renderSeconds = secondsSinceStart();
     readCounters();
@@ -278,7 +278,7 @@ void Renderer::carryOut(PlanTask task)
     case PlanTask::ChooseAllPixels: films_->chooseAllPixels(); break;
     case PlanTask::ChoosePixels: films_->choosePixels(plan_.sweep()); break;
     case PlanTask::TestPixels: plan_.choose(films_->testPixels(plan_.sampleCount())); break;
-    case PlanTask::TakeHalves: films_->takeHalves(plan_.endOfSamples()); break;
+    case PlanTask::TakeHalves: films_->takeHalves(plan_.endOfSamples(), false); break;
     case PlanTask::FoldCommon: films_->foldCommon(); break;
     case PlanTask::Allocate: plan_.allocate(computeShares(films_->common(), error), passSize_.paths()); break;
     case PlanTask::Fold: films_->fold(); break;

@@ -179,12 +179,13 @@ std::optional<SampleProgress> SamplePlan::progress() const
     if (isCourse(settings_.adaptive) || (adaptive && progress.sample != sample_)) {
         return std::nullopt;
     }
-    const bool ahead = sweeping_ && !choosing_ && endsBlock(sweepEnd());
+    const bool ahead = sweeping_ && !choosing_ && endsBlock(sweepEnd()) && !settings_.halves;
     progress.pixelsAhead = ahead ? static_cast<std::uint32_t>(cursor_.pixelsDone()) : 0;
     if (progress.sample == settings_.sampleBegin && progress.pixelsAhead == 0) {
         return std::nullopt;
     }
-    progress.lightSample = tracesLight_ ? finishedBlocks(settings_.sampleBegin, lightSample_) : progress.sample;
+    const bool lightIsAhead = tracesLight_ && !settings_.halves;
+    progress.lightSample = lightIsAhead ? finishedBlocks(settings_.sampleBegin, lightSample_) : progress.sample;
     if (adaptive) {
         AdaptiveProgress& now = progress.adaptive.emplace(AdaptiveProgress{mean_, roundEnd_, commonEnd_, chosenBlocks_.begin(), choosing_,
                                                                            chosenBlocks_.samples(), chosenBlocks_.blocks()});

@@ -102,7 +102,8 @@ public:
     // Goes on from another one's progress, if it can.
     bool canResume(const SampleProgress& progress) const;
     void resume(SampleProgress progress, std::uint32_t paths);
-    // Nothing before the first block, within one of an adaptive render, and if the adaptive rule is the course's.
+    // Nothing before the first block, within one of an adaptive render, and if the adaptive rule is the course's. Halves are of whole
+    // blocks, so no pixel is ahead if they are kept.
     std::optional<SampleProgress> progress() const;
 
     // A picture is rendered by: rounds, as long as beginRound() begins one, each with its tasks; then a light pass, or else a pass and its

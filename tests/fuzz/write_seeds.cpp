@@ -256,6 +256,9 @@ void writeFilms(const fs::path& folder)
     writeFilm(folder / "whole_page.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.page = checkpoint.film;
     writeFilm(folder / "page.exr", makeFilm(checkpoint), checkpoint);
+    checkpoint.halves = {checkpoint.page, checkpoint.page};
+    writeFilm(folder / "halves.exr", makeFilm(checkpoint), checkpoint);
+    checkpoint.halves = {};
     checkpoint.progress.adaptive =
         AdaptiveProgress{64, 128, 64, 128, true, std::vector<std::uint32_t>(6, 4), std::vector<std::uint32_t>(6, 2)};
     checkpoint.common = checkpoint.page;

@@ -23,7 +23,7 @@ glm::vec3 truthAt(std::size_t i)
 
 using Noise = std::function<double(std::mt19937&)>;  // of mean 0 and variance 1
 
-// 128 samples, 96 and 32 in a half, by noise that has the deviation after 16 samples.
+// 96 samples, 64 and 32 in a half, by noise that has the deviation after 16 samples.
 FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
 {
     std::mt19937 random(seed);
@@ -32,7 +32,7 @@ FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
     FilmHalves halves(settings);
     Film page;
     page.pixels.resize(kSide * kSide);
-    for (std::uint32_t sample = 0; sample < 128;) {
+    for (std::uint32_t sample = 0; sample < 96;) {
         const std::uint32_t end = FilmHalves::nextEnd(sample);
         for (std::size_t i = 0; i < page.pixels.size(); ++i) {
             PixelMoments block{};
@@ -45,6 +45,7 @@ FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
         halves.take(page, end);
         sample = end;
     }
+    halves.takeLast(page, 96);
     return halves;
 }
 
@@ -172,40 +173,79 @@ TEST(DenoisedPicture, IsNoneIfTheDenoiserWasEnded)
     EXPECT_FALSE(denoiseHalves(halvesOf(3, 0.1, kNormal), [](const Film&) { return std::nullopt; }));
 }
 
-TEST(FilmHalves, BlocksAlternate)
+// One pixel whose samples are as bright as the ends of the halves of blocks that they lie in.
+FilmHalves halvesOfOnePixel(std::uint32_t begin, std::uint32_t end)
+{
+    RenderSettings settings{.width = 1, .height = 1};
+    settings.sampleBegin = begin;
+    FilmHalves halves(settings);
+    Film page;
+    for (std::uint32_t sample = begin; sample < end;) {
+        const std::uint32_t next = std::min(end, FilmHalves::nextEnd(sample));
+        if (sample == begin || sample % kPageSamples == 0) {
+            page.pixels.assign(1, {});
+            page.splats.assign(1, {});
+        }
+        PixelMoments part{};
+        part.count = next - sample;
+        part.blocks = 1;
+        part.mean = glm::vec3(static_cast<float>(next));
+        page.pixels[0] = foldMoments(page.pixels[0], part);
+        page.splats[0] = foldMoments(page.splats[0], {part.count, 1, 10.0F * part.mean, glm::vec3(0.0F), 0.0F});
+        if (next == FilmHalves::nextEnd(sample)) {
+            halves.take(page, next);
+        }
+        sample = next;
+    }
+    halves.takeLast(page, end);
+    return halves;
+}
+
+TEST(FilmHalves, AreAsEqualAsBlocksAllow)
 {
     EXPECT_EQ(FilmHalves::nextEnd(0), 16U);
     EXPECT_EQ(FilmHalves::nextEnd(16), 32U);
     EXPECT_EQ(FilmHalves::nextEnd(64), 96U);
     EXPECT_EQ(FilmHalves::nextEnd(128), 192U);
     EXPECT_EQ(FilmHalves::nextEnd(300), 320U);
-    const FilmHalves halves = halvesOf(1, 0.5, kNormal);
-    EXPECT_EQ(halves.films()[0].pixels[5].count, 96U);
-    EXPECT_EQ(halves.films()[0].pixels[5].blocks, 4U);
-    EXPECT_EQ(halves.films()[1].pixels[5].count, 32U);
-    EXPECT_EQ(halves.films()[1].pixels[5].blocks, 2U);
-    // Parts of a block stay together. The variance is that between the parts.
-    FilmHalves known(RenderSettings{.width = 1, .height = 1});
-    Film page;
-    page.pixels.resize(1);
-    page.splats.resize(1);
-    for (const std::uint32_t end : {16U, 32U, 48U, 64U, 96U}) {
-        PixelMoments part{};
-        part.count = end <= 64 ? 16 : 32;
-        part.blocks = 1;
-        part.mean = glm::vec3(static_cast<float>(end / 16));  // 1, 2, 3, 4, 6
-        page.pixels[0] = foldMoments(page.pixels[0], part);
-        page.splats[0] = foldMoments(page.splats[0], {part.count, 1, 10.0F * part.mean, glm::vec3(0.0F), 0.0F});
-        known.take(page, end);
+    struct Sizes {
+        std::uint32_t begin, end, first, second;
+    };
+    for (const Sizes& known : {Sizes{0, 64, 32, 32},
+                               {0, 65, 33, 32},
+                               {0, 100, 64, 36},
+                               {0, 128, 64, 64},
+                               {0, 129, 65, 64},
+                               {0, 192, 128, 64},
+                               {0, 256, 128, 128},
+                               {0, 384, 256, 128},
+                               {0, 512, 256, 256},
+                               {0, 1024, 512, 512},
+                               {100, 256, 28, 128},
+                               {256, 512, 128, 128},
+                               {300, 1000, 340, 360}}) {
+        const FilmHalves halves = halvesOfOnePixel(known.begin, known.end);
+        EXPECT_EQ(halves.films()[0].pixels[0].count, known.first) << known.begin << ':' << known.end;
+        EXPECT_EQ(halves.films()[1].pixels[0].count, known.second) << known.begin << ':' << known.end;
     }
-    const auto& [first, second] = known.films();
-    EXPECT_NEAR(first.pixels[0].mean.r, (16.0F * 3.0F + 32.0F * 6.0F) / 64.0F, 1e-5F);
-    EXPECT_NEAR(second.pixels[0].mean.r, 3.5F, 1e-5F);
-    EXPECT_NEAR(second.splats[0].mean.r, 35.0F, 1e-4F);
-    EXPECT_NEAR(computeVarianceOfMean(second.pixels[0]).r, 0.25F, 1e-5F);  // of 3 and 4
-    EXPECT_EQ(first.splats[0].count, 64U);
     EXPECT_FALSE(hasBothHalves(FilmHalves(RenderSettings{})));
-    EXPECT_TRUE(hasBothHalves(halves));
+    EXPECT_FALSE(hasBothHalves(halvesOfOnePixel(0, 32)));
+    EXPECT_TRUE(hasBothHalves(halvesOfOnePixel(0, 40)));
+}
+
+// Halves of a block stay together, and the variance is that between them.
+TEST(FilmHalves, HaveTheirBlocks)
+{
+    const FilmHalves halves = halvesOfOnePixel(0, 128);
+    const auto& [first, second] = halves.films();
+    EXPECT_EQ(first.pixels[0].blocks, 4U);
+    EXPECT_EQ(second.pixels[0].blocks, 2U);
+    EXPECT_NEAR(first.pixels[0].mean.r, (16.0F + 32.0F + 48.0F + 64.0F) / 4.0F, 1e-3F);
+    EXPECT_NEAR(second.pixels[0].mean.r, (96.0F + 128.0F) / 2.0F, 1e-3F);
+    EXPECT_NEAR(second.splats[0].mean.r, 1120.0F, 1e-2F);
+    EXPECT_NEAR(computeVarianceOfMean(second.pixels[0]).r, 256.0F, 1e-2F);  // of 96 and 128
+    EXPECT_EQ(first.splats[0].count, 64U);
+    EXPECT_NEAR(halvesOfOnePixel(0, 512).films()[0].pixels[0].mean.r, 0.25F * (40.0F + 112.0F + 320.0F + 384.0F), 1e-2F);
 }
 
 }  // namespace

@@ -115,6 +115,30 @@ TEST(FilmFile, ReadsBackEveryBitOfLightGroups)
     }
 }
 
+TEST(FilmFile, CheckpointsHaveHalves)
+{
+    const ScratchFolder folder;
+    Checkpoint checkpoint = makeCheckpoint(filmWithSplats()).value();
+    static_cast<FilmMoments&>(checkpoint.halves[0]) = filmWithSplats();
+    const std::vector<glm::vec3> colors(checkpoint.halves[0].pixels.size(), glm::vec3(1.0F));
+    const DenoisedLayers denoised{colors, colors, "none"};
+    for (const bool both : {true, false}) {
+        checkpoint.halves[1] = both ? simulateFilm(64, 128) : FilmMoments();
+        writeFilm(folder / "a.exr", makeFilm(checkpoint), {&checkpoint, &denoised});
+        const StoredFilm stored = readStoredFilm(folder / "a.exr");
+        ASSERT_TRUE(stored.checkpoint && stored.checkpoint->hasHalves());
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_TRUE(sameBits(stored.checkpoint->halves[i].pixels, checkpoint.halves[i].pixels));
+        }
+        EXPECT_EQ(computeHalvesDigest(*stored.checkpoint), computeHalvesDigest(checkpoint));
+        EXPECT_EQ(computeDigest(*stored.checkpoint), computeDigest(checkpoint));
+        EXPECT_TRUE(readDenoised(folder / "a.exr"));
+    }
+    checkpoint.halves = {};
+    writeFilm(folder / "a.exr", makeFilm(checkpoint), checkpoint);
+    EXPECT_FALSE(readStoredFilm(folder / "a.exr").checkpoint->hasHalves());
+}
+
 TEST(FilmFile, CheckpointsHaveLightGroups)
 {
     const ScratchFolder folder;
@@ -257,7 +281,8 @@ TEST(FilmFile, EveryRowHasItsOwnVariance)
         denoised.emplace_back(static_cast<float>(i), 1.0F, 2.0F);
         error.emplace_back(3.0F, static_cast<float>(i), 4.0F);
     }
-    writeFilm(folder / "a.exr", film, DenoisedLayers{denoised, error, "none"});
+    const DenoisedLayers layers{denoised, error, "none"};
+    writeFilm(folder / "a.exr", film, {.denoised = &layers});
     const Image image = readExr(folder / "a.exr");
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         ASSERT_EQ(image.channels.at("variance.G")[i], computeVarianceOfMean(film.pixels[i]).g) << i;

@@ -189,8 +189,11 @@ class FilmTest(PythonCase):
         film.save(self.path("film.png"))
         with open(self.path("film.png"), "rb") as mine, open(self.path("cli.png"), "rb") as other:
             self.assertEqual(mine.read(), other.read())
-        with self.assertRaisesRegex(glim.InputError, "denoise needs two halves of the samples"):
-            film.resume(spp=128)
+        more, whole = film.resume(spp=300), glim.render(GEMS, size=(40, 32), spp=300, denoise=True)
+        self.assertEqual(more.digest, whole.digest)
+        self.assertTrue(np.array_equal(more.denoised, whole.denoised))
+        with self.assertRaisesRegex(glim.InputError, "not their two halves, which --denoise needs"):
+            plain.resume(spp=128, denoise=True)
 
     def test_resume(self):
         kept = glim.load(GEMS, size=(16, 12))

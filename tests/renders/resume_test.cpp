@@ -64,6 +64,8 @@ public:
         }
     }
 
+    const FilmHalves* halves() const { return renderer_.films().halves(); }
+
     int pieces = 0, apart = 0, ahead = 0, choosing = 0;
     std::uint32_t end = 0;  // of the samples
 
@@ -116,6 +118,26 @@ TEST_P(ResumeTest, UniformRendersHaveTheBitsOfOneRun)
         expectTheBitsOfOneRun(pieces, 40);
         EXPECT_GT(pieces.apart, 3);
         EXPECT_GT(pieces.ahead, 3);
+    }
+}
+
+// No pixel is ahead, so a piece that ends within a block loses it.
+TEST_P(ResumeTest, HalvesHaveTheBitsOfOneRun)
+{
+    for (const auto& [begin, end] : {std::pair{0U, 700U}, std::pair{100U, 500U}}) {
+        RenderSettings settings = inSmallPasses(16, end);
+        settings.sampleBegin = begin;
+        settings.schedule = GetParam();
+        settings.halves = true;
+        Pieces pieces(mixedScene(), settings);
+        pieces.renderAtOnce();
+        const std::array<Film, 2> whole = pieces.halves()->films();
+        expectTheBitsOfOneRun(pieces, 60);
+        EXPECT_GT(pieces.apart, 0);
+        EXPECT_EQ(pieces.ahead, 0);
+        for (std::size_t i = 0; i < 2; ++i) {
+            EXPECT_TRUE(sameBits(pieces.halves()->films()[i], whole[i]));
+        }
     }
 }
 
