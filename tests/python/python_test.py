@@ -192,7 +192,7 @@ class FilmTest(PythonCase):
         more, whole = film.resume(spp=300), glim.render(GEMS, size=(40, 32), spp=300, denoise=True)
         self.assertEqual(more.digest, whole.digest)
         self.assertTrue(np.array_equal(more.denoised, whole.denoised))
-        with self.assertRaisesRegex(glim.InputError, "not their two halves, which --denoise needs"):
+        with self.assertRaisesRegex(glim.InputError, "not their two halves, which denoise needs"):
             plain.resume(spp=128, denoise=True)
 
     def test_resume(self):

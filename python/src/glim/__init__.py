@@ -515,7 +515,8 @@ class Scene:
                objects: bool = False, progress: Optional[Progress] = None, **options: "Unpack[RenderOptions]") -> Film:
         """Renders a picture.
 
-        resume: a film of the same picture with fewer samples, to go on from.
+        resume: a film of the same picture with fewer samples, to go on from; with denoise=True one that was rendered with it, which keeps
+            the halves of its samples but not in files or copies.
         ids, surfaces, objects: whether these of the film are to be known, which traces camera rays again.
         flow: seconds between the pictures of film.surfaces' flow; needs at=, the time of the animation.
         progress: called several times a second with samples so far and in all, over all pixels, and seconds. What it raises ends the
