@@ -16,9 +16,9 @@ enum class DeviceClass {
 };
 
 struct ClassRules {
-    // The schedule of --schedule auto: the persistent one, or else the wavefront. llvmpipe was faster with the persistent one in every
-    // scene measured (tests/bench/README.md), an H100 with the wavefront (tests/bench/GPU.md). SwiftShader takes more than ten minutes to
-    // compile trace_paths.
+    // The schedule of --schedule auto: the persistent one, or else the wavefront, which scenes with scattering volumes always take.
+    // llvmpipe is faster with the persistent one where little is traced (tests/bench/README.md), an H100 with the wavefront
+    // (tests/bench/GPU.md). SwiftShader takes more than ten minutes to compile trace_paths.
     bool persistent;
     // Paths in flight, unless the device has less room. An H100 holds 270,336 threads, and was 6.6 to 7 times as fast with 2^22 as with
     // 2^18; in the Cornell box it was 1.11 times as fast with 2^23 as with 2^22, and 1.04 times with 2^24 as with 2^23. A CPU needs only

@@ -9,7 +9,7 @@
 
 namespace glim {
 
-Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device)
+Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device, FeatureMask features)
 {
     const bool course = usesCourseEstimators(settings);
     if (settings.schedule == Schedule::Persistent && course) {
@@ -20,15 +20,16 @@ Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription&
     if (settings.schedule != Schedule::Auto) {
         return settings.schedule;
     }
-    return !course && rulesOf(device.deviceClass).persistent ? Schedule::Persistent : Schedule::Wavefront;
+    const bool scatters = (features & kFeatureScattering) != 0;
+    return !course && !scatters && rulesOf(device.deviceClass).persistent ? Schedule::Persistent : Schedule::Wavefront;
 }
 
 namespace {
 
 // But for what a specialization says.
-bool hasSameKernels(const RenderResources& other, const RenderSettings& asked)
+bool hasSameKernels(const RenderResources& other, const FlatScene& scene, const RenderSettings& asked)
 {
-    return other.schedule == chooseSchedule(asked, other.device.description()) && other.settings.course == asked.course &&
+    return other.schedule == chooseSchedule(asked, other.device.description(), scene.features) && other.settings.course == asked.course &&
            isCourse(other.settings.adaptive) == isCourse(asked.adaptive);
 }
 
@@ -38,7 +39,7 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
                                  const FlatScene& scene, const FlatCamera& camera, const RenderSettings& asked)
     : device(of),
       settings(asked),
-      schedule(chooseSchedule(asked, of.description())),
+      schedule(chooseSchedule(asked, of.description(), scene.features)),
       lightCount(static_cast<std::uint32_t>(scene.lights.size())),
       scatters((scene.features & kFeatureScattering) != 0 && !usesCourseEstimators(asked)),
       shared(std::move(resources)),
@@ -61,7 +62,7 @@ RenderResources::RenderResources(Device& of, const FlatScene& scene, const FlatC
 
 RenderResources::RenderResources(const RenderResources& other, const FlatScene& scene, const FlatCamera& camera,
                                  const RenderSettings& asked)
-    : RenderResources(other.device, other.shared, hasSameKernels(other, asked) ? other.compiled : nullptr, scene, camera, asked)
+    : RenderResources(other.device, other.shared, hasSameKernels(other, scene, asked) ? other.compiled : nullptr, scene, camera, asked)
 {}
 
 bool RenderResources::hasKernels(const FlatScene& scene, const FlatCamera& camera) const

@@ -15,8 +15,9 @@
 
 namespace glim {
 
-// The schedule that a render is to use. Throws InputError if the one asked for cannot render the other settings.
-Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device);
+// The schedule that a render is to use, of a scene with these features. Throws InputError if the one asked for cannot render the other
+// settings.
+Schedule chooseSchedule(const RenderSettings& settings, const DeviceDescription& device, FeatureMask features);
 
 // What several renders of one scene may share. Only one of them may render at a time.
 struct SharedResources {

@@ -162,20 +162,22 @@ TEST(ScheduleChoiceTest, AutoIsTheFasterOneWhereThatCan)
     other.deviceClass = DeviceClass::DiscreteGpu;
     RenderSettings settings;
     settings.schedule = Schedule::Auto;
-    EXPECT_EQ(chooseSchedule(settings, software), Schedule::Persistent);
-    EXPECT_EQ(chooseSchedule(settings, other), Schedule::Wavefront);
+    EXPECT_EQ(chooseSchedule(settings, software, 0), Schedule::Persistent);
+    EXPECT_EQ(chooseSchedule(settings, other, 0), Schedule::Wavefront);
+    EXPECT_EQ(chooseSchedule(settings, software, kAllFeatures & ~kFeatureScattering), Schedule::Persistent);
+    EXPECT_EQ(chooseSchedule(settings, software, kFeatureScattering), Schedule::Wavefront);
     for (const auto& ofCourse : {std::function([](RenderSettings& s) { s.course.accelerator = Accelerator::None; }),
                                  std::function([](RenderSettings& s) { s.course.intersector = Intersector::MollerTrumbore; }),
                                  std::function([](RenderSettings& s) { s.course.direct = DirectLight::Bsdf; }),
                                  std::function([](RenderSettings& s) { s.course.roulette = Roulette::None; })}) {
         RenderSettings course = settings;
         ofCourse(course);
-        EXPECT_EQ(chooseSchedule(course, software), Schedule::Wavefront);
+        EXPECT_EQ(chooseSchedule(course, software, 0), Schedule::Wavefront);
     }
     for (const Schedule asked : {Schedule::Wavefront, Schedule::Persistent}) {
         settings.schedule = asked;
-        EXPECT_EQ(chooseSchedule(settings, software), asked);
-        EXPECT_EQ(chooseSchedule(settings, other), asked);
+        EXPECT_EQ(chooseSchedule(settings, software, 0), asked);
+        EXPECT_EQ(chooseSchedule(settings, other, 0), asked);
     }
 }
 
