@@ -146,6 +146,7 @@ class SceneTest(unittest.TestCase):
         document.sphere("glass", (0, 0, 0), 1, document.material("glass", ior=1.5))
         document.sphere("drop", (0, 0, 0), 0.5, document.material("water", ior=1.33))
         self.assertTrue(solids_meet(self.read(document)))
+        self.assertTrue(solids_meet(committed("sun_water")))  # a floor and a camera in water that absorbs
 
     def test_lamps_that_mitsuba_has_not(self):
         def lamp(**more):

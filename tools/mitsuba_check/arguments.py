@@ -17,8 +17,8 @@ rendering; starting, loading and compiling are apart.
 Mitsuba has no light that shines from both sides of a triangle: two sheets stand for it, of which Mitsuba's light sampling
 tries one in vain. It has no Schlick's Fresnel, no spot with glTF's falloff and no material of glTF either: they are classes in
 Python here, the material with the formulas that glim has and albedos of its own, by the quadrature of tests/oracle.
-Coverage is Mitsuba's 'mask' under 'volpath'; maps, smooth glass and Lambert surfaces are its own. Where solids meet, and for
-unlit surfaces, its parts make an integrator. Dispersion is refused.
+Coverage is Mitsuba's 'mask' under 'volpath'; maps, smooth glass and Lambert surfaces are its own. Where solids meet, where
+something else or the camera is in one that absorbs, and for unlit surfaces, its parts make an integrator. Dispersion is refused.
 Mitsuba: in any Python, pip install mitsuba numpy; then run this with that Python. For its fast variant llvm_ad_rgb also
 apt-get install libllvm19 (LLVM 14, 15 and 16 fail); without, scalar_rgb is taken, which is slower.
 Exit codes: 0 done, 1 bad input or a program that failed, 2 usage."""

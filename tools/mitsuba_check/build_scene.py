@@ -138,6 +138,7 @@ class Shapes:
 
     def __init__(self, scene):
         self.meet, self.images = solids_meet(scene), Images(scene.file)
+        self.eye = list(map(float, scene.camera.position))
         self.plain, self.unlit, self.numbers, self.media = {}, {}, {}, []
         used = {shape.material for shape in scene.meshes + scene.spheres}
         self.lets_through = any(scene.materials[i].lets_through for i in used)
@@ -167,7 +168,7 @@ class Shapes:
         if self.meet:
             from .integrator import Media, integrator_class
             media = Media(self.numbers, [ior for ior, _ in self.media], [absorption for _, absorption in self.media])
-            found = integrator_class(mi.variant())(depth, media)
+            found = integrator_class(mi.variant())(depth, media, self.eye)
         else:
             # Of the two, `volpath` alone lets what surfaces pass straight through to its light samples.
             found = {"type": "volpath" if self.lets_through else "path", "max_depth": depth}

@@ -49,6 +49,24 @@ class Media:
             table[place] = self.numbers.get(shape.id(), 0)
         return mi.UInt32(table)
 
+    def around(self, scene, table, point):
+        """The media at a point, by a ray from there: of the solids that it leaves without having entered them."""
+        direction, entries, around = mi.Vector3f(0.36, 0.48, 0.8), [], []
+        si = scene.ray_intersect(mi.Ray3f(mi.Point3f(point), direction))
+        while si.is_valid()[0]:
+            number = dr.gather(mi.UInt32, table, dr.reinterpret_array(mi.UInt32, si.shape))[0]
+            if number and dr.dot(si.n, direction)[0] < 0:
+                entries.append(number)
+            elif number in entries:
+                entries.remove(number)
+            elif number:
+                around.append(number)
+            si = scene.ray_intersect(si.spawn_ray(direction))
+        stack = 0
+        for number in reversed(around):  # the outermost is left last
+            stack = entered(stack, number)
+        return stack
+
     def transmittance(self, stack, distance):
         medium = innermost(stack)
         return mi.Color3f(*(dr.select(a > 0, dr.exp(-a * dr.minimum(distance, 1e30)), 1)
@@ -60,16 +78,17 @@ def integrator_class(_variant):
     class MediaPath(mi.SamplingIntegrator):
         """The integrand of Mitsuba's `path`. A BSDF finds its relative index in the interaction's time, which nothing else uses."""
 
-        def __init__(self, max_depth, media):
+        def __init__(self, max_depth, media, eye):
             super().__init__(mi.Properties())
-            self.max_depth, self.media, self.table = max_depth, media, None
+            self.max_depth, self.media, self.eye, self.table = max_depth, media, eye, None
 
         @dr.syntax
         def sample(self, scene, sampler, ray, medium=None, active=True):
             if self.table is None:
                 self.table = self.media.table(scene)
+                self.around = self.media.around(scene, self.table, self.eye)
             ray, depth, eta = mi.Ray3f(ray), mi.UInt32(0), mi.Float(1)
-            throughput, result, stack = mi.Color3f(1), mi.Color3f(0), mi.UInt32(0)
+            throughput, result, stack = mi.Color3f(1), mi.Color3f(0), mi.UInt32(self.around)
             previous, pdf, delta = dr.zeros(mi.Interaction3f), mi.Float(1), mi.Bool(True)
             active, context = mi.Bool(active), mi.BSDFContext()
             while active:

@@ -94,7 +94,7 @@ def size_of(scene, height):
     return max(1, round(height * scene.camera.aspect)), height
 
 
-def boxes_of_solids(scene):
+def boxes_of_shapes(scene):
     """Material and box of everything that is drawn."""
     for mesh in scene.meshes:
         yield mesh.material, mesh.positions.min(axis=0), mesh.positions.max(axis=0)
@@ -103,14 +103,16 @@ def boxes_of_solids(scene):
 
 
 def solids_meet(scene):
-    """Whether boxes of solids of different media overlap."""
-    solids = []
-    for index, low, high in boxes_of_solids(scene):
+    """Whether paths within a solid may end elsewhere than at its boundary, or begin there: boxes of solids of different media overlap, or
+    one that absorbs has something else or the camera in its box."""
+    shapes, eye = [], scene.camera.position
+    for index, low, high in boxes_of_shapes(scene):
         material = scene.materials[index]
-        if material.solid:
-            solids.append(((material.ior, *material.absorption), low, high))
-    return any(a[0] != b[0] and np.all(a[1] < b[2]) and np.all(b[1] < a[2])
-               for i, a in enumerate(solids) for b in solids[:i])
+        shapes.append(((material.ior, *material.absorption) if material.solid else None, max(material.absorption), low, high))
+    if any(absorbs and np.all(low < eye) and np.all(eye < high) for _, absorbs, low, high in shapes):
+        return True
+    return any(a[0] != b[0] and (a[0] and b[0] or a[1] or b[1]) and np.all(a[2] < b[3]) and np.all(b[2] < a[3])
+               for i, a in enumerate(shapes) for b in shapes[:i])
 
 
 class Reader:
