@@ -483,7 +483,7 @@ class UseTest(PythonCase):
         """Without the validation layer, which keeps 50 KB of each render to itself."""
         grown = run_python("""
 import glim
-kept = glim.load(%r, size=(16, 16), spp=1)
+kept = glim.load(%r, size=(16, 16), spp=1, caustics="on")  # without the pass that decides
 
 def bytes_after(renders):  # those that no file holds: a library's count as private or shared by what other processes run
     for seed in range(renders):
