@@ -103,23 +103,6 @@ std::vector<glm::dvec3> averageAround(const glm::uvec2& size, const std::vector<
 
 double meanOf(const glm::dvec3& value) { return (value.r + value.g + value.b) / 3.0; }
 
-// Keeps the pixels that denoising lights up: where a channel more than doubles, and by more than what relMSE takes for dark. The light of a
-// rare bright sample that was spread over dark neighbours is little in squares, but much against their radiance; no tile shows it by sums
-// in which single pixels are most. A half judges alone, so its errors stay independent of the other's noise.
-void keepDarkPixels(DenoisedHalf& half)
-{
-    double sum = 0.0;
-    for (const glm::vec3& radiance : half.noisy) {
-        sum += meanOf(radiance);
-    }
-    const auto dark = static_cast<float>(0.1 * sum / static_cast<double>(half.noisy.size()));
-    for (std::size_t i = 0; i < half.noisy.size(); ++i) {
-        if (glm::any(glm::greaterThan(half.denoised[i], 2.0F * half.noisy[i] + dark))) {
-            half.denoised[i] = half.noisy[i];
-        }
-    }
-}
-
 // Both halves as they were and as they are denoised.
 class Measurement {
 public:
@@ -232,7 +215,6 @@ DenoisedHalf noisyHalf(const Film& film)
 
 DenoisedPicture joinHalves(const glm::uvec2& size, std::array<DenoisedHalf, 2> halves)
 {
-    std::ranges::for_each(halves, keepDarkPixels);
     Measurement measurement(size, std::move(halves[0]), std::move(halves[1]));
     measurement.keepNoisyTiles();
     return measurement.picture();

@@ -33,7 +33,7 @@ struct DenoisedPicture {
     std::vector<glm::vec3> radiance;
     std::vector<glm::vec3> error;  // root of the mean square error of the pixels around, W/(sr m^2); 0 where none was found
     DenoisedError measured;
-    double noisyShare = 0.0;  // of the pixels: in tiles that stayed as they were, because denoising made them worse
+    double noisyShare = 0.0;  // of the pixels: these stayed as they were, because denoising made their tile worse
 };
 
 // Half of the samples.
@@ -45,7 +45,7 @@ struct DenoisedHalf {
 // The radiance and the samples of a half that is still to be denoised.
 DenoisedHalf noisyHalf(const Film& film);
 
-// The mean of both halves, and its error. Where denoising makes a tile worse, or lights up a dark pixel of a half, these stay noisy.
+// The mean of both halves, and its error. Where denoising makes a tile worse, it stays noisy.
 DenoisedPicture joinHalves(const glm::uvec2& size, std::array<DenoisedHalf, 2> halves);
 
 // `film` with the denoised radiance, to be shown and not to be kept: its moments are those of no samples.

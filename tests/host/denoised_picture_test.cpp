@@ -168,21 +168,6 @@ TEST(DenoisedPicture, KeepsNoisyPixelsWhereDenoisingHurts)
     EXPECT_EQ(picture->error.size(), picture->radiance.size());
 }
 
-// A bright sample of one half, spread over its neighbours: these stay dark, and what is lit up a little does not.
-TEST(DenoisedPicture, KeepsDarkPixelsDark)
-{
-    constexpr std::size_t kBright = 20 * kSide + 20, kDark = kBright + 1, kLit = 40 * kSide + 40;
-    const std::vector<glm::vec3> dark(kSide * kSide, glm::vec3(0.1F));
-    std::array<DenoisedHalf, 2> halves{DenoisedHalf{dark, dark, 32}, DenoisedHalf{dark, dark, 32}};
-    halves[0].noisy[kBright] = glm::vec3(900.0F);
-    halves[0].denoised[kBright] = halves[0].denoised[kDark] = glm::vec3(450.0F);
-    halves[0].denoised[kLit] = glm::vec3(0.1F, 0.1F, 0.2F);
-    const DenoisedPicture picture = joinHalves({kSide, kSide}, halves);
-    EXPECT_EQ(picture.radiance[kDark], glm::vec3(0.1F));
-    EXPECT_EQ(picture.radiance[kLit], 0.5F * (halves[0].denoised[kLit] + glm::vec3(0.1F)));
-    EXPECT_EQ(picture.radiance[kBright], 0.5F * glm::vec3(450.0F + 0.1F));
-}
-
 TEST(DenoisedPicture, IsNoneIfTheDenoiserWasEnded)
 {
     EXPECT_FALSE(denoiseHalves(halvesOf(3, 0.1, kNormal), [](const Film&) { return std::nullopt; }));
