@@ -100,8 +100,8 @@ def without_dask():
         yield
 
 
-def make_driver(kind, picture, done=()):
-    """kind: Driver, or a class made from it."""
+def make_driver(kind, picture, done=(), stopped=()):
+    """kind: Driver, or a class made from it. stopped: see Driver."""
     options = SimpleNamespace(insecure=False, scheduler="tls://10.0.9.9:8786", slurm=None, devices=None, dashboard=False)
     progress = SimpleNamespace(say=print, add=lambda samples: None, show=lambda *about: None)
-    return kind(picture, dict.fromkeys(done, "digest"), options, progress)
+    return kind(picture, dict.fromkeys(done, "digest"), options, progress, stopped)

@@ -4,6 +4,7 @@ lists this test as skipped (exit code 77). The argument is glim's program."""
 
 import asyncio
 import base64
+import contextlib
 import glob
 import json
 import os
@@ -203,6 +204,27 @@ class DriverTest(unittest.TestCase):
         client = StandInClient(1)
         with without_dask():
             asyncio.run(make_driver(AtOnce, Folded(client, 2)).run(client))
+
+    def test_signal_that_comes_together_with_an_event(self):
+        """The cancellation may be lost then (asyncio.wait_for before Python 3.12). The driver ends all the same."""
+        from farm_driver_stand_in import StandInClient, StandInPicture, make_driver, without_dask
+        from render_farm.driver import Driver, until_signal
+        turns = []
+
+        class Deaf(Driver):
+            async def take_films(self):
+                turns.append(len(turns))
+                if turns[-1] == 9:
+                    raise FarmError("it did not end")
+                if not self.stopped:
+                    os.kill(os.getpid(), signal.SIGTERM)
+                with contextlib.suppress(asyncio.CancelledError):
+                    await super().take_films()
+        client = StandInClient(1)
+        with without_dask(), mock.patch("render_farm.driver.keep_interrupts_from_children"):
+            stopped = asyncio.run(until_signal(lambda stopped: make_driver(Deaf, StandInPicture(client, 2), (), stopped).run(client)))
+        self.assertEqual(stopped, signal.SIGTERM)
+        self.assertLess(len(turns), 3)
 
 
 class CommandTest(unittest.TestCase):

@@ -44,8 +44,9 @@ class Driver:
     """Each part goes to a worker that the driver chooses: Dask carries films, and tells which workers live. A film comes back as the bytes
     that the task returns, so that workers need no folder in common with the driver, and the driver alone writes into the job's."""
 
-    def __init__(self, picture, done, options, progress):
-        self.picture, self.options, self.progress = picture, options, progress
+    def __init__(self, picture, done, options, progress, stopped):
+        """stopped: holds the signal once one has come (until_signal)."""
+        self.picture, self.options, self.progress, self.stopped = picture, options, progress, stopped
         self.ledger = Ledger(set(picture.parts) - done.keys(), done)
         self.workers = set()
         self.barred = set()
@@ -62,6 +63,8 @@ class Driver:
         self.client, self.events = client, asyncio.Queue()
         try:
             while not self.picture.finished:
+                if self.stopped:  # asyncio.wait_for before Python 3.12 loses a cancellation that comes together with what it waits for
+                    raise asyncio.CancelledError
                 await self.look_at_workers()
                 self.hand_out()
                 self.show()
@@ -269,9 +272,11 @@ def keep_interrupts_from_children():
 
 
 async def until_signal(work):
-    """Runs `work`. The signals that stop a farm end it; returns the signal, or None."""
+    """Runs `work`, which takes a list. A signal that stops a farm is put into that list and cancels the work. Returns the signal, or
+    None."""
     keep_interrupts_from_children()
-    task, stopped = asyncio.ensure_future(work), []
+    stopped = []
+    task = asyncio.ensure_future(work(stopped))
 
     def stop(number):
         stopped.append(number)

@@ -1,6 +1,7 @@
 """What tools/farm does."""
 
 import asyncio
+import functools
 import os
 import signal
 import sys
@@ -17,10 +18,10 @@ from render_farm.progress import Progress  # noqa: E402
 from render_farm.security import check_network  # noqa: E402
 
 
-async def render(picture, done, options, progress):
+async def render(picture, done, options, progress, stopped):
     from render_farm.cluster import connect
     from render_farm.driver import Driver
-    driver = Driver(picture, done, options, progress)
+    driver = Driver(picture, done, options, progress, stopped)
     async with connect(options, driver.count_left) as client:
         await driver.run(client)
 
@@ -51,7 +52,7 @@ def farm(options, progress):
     picture = kind(options, glim, JobFolder(options.output), progress.say)
     done = picture.open()
     if not picture.finished:
-        stopped = asyncio.run(until_signal(render(picture, done, options, progress)))
+        stopped = asyncio.run(until_signal(functools.partial(render, picture, done, options, progress)))
         if stopped is not None:
             progress.say("stopped; the same command goes on from %s" % picture.folder.path)
             return 128 + stopped
