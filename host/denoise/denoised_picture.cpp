@@ -18,6 +18,7 @@ struct PixelError {
     double spread = 0.0;   // (a - b)^2 / 4
     double product = 0.0;  // (A - a) (B - b)
     double excess = 0.0;   // ((A - a)^2 - (B - b)^2) / 2
+    double balance = 0.0;  // of the halves' variances v and w: 4 v w / (v + w)^2
 
     double square() const { return spread + product; }
 };
@@ -58,12 +59,12 @@ void forEachTile(const glm::uvec2& size, Visit visit)
 // - Without bias the square of the first product is its variance; with bias it is more. The square of `excess` is its variance whatever
 //   the bias is, but more if the noise has long tails or the halves are unlike. The smaller sum is taken.
 // - The second product is not seen. Its variance is v w, with the variances v of a - t and w of b - t, and 16 spread^2 = (a - b)^4 has the
-//   mean 3 (v + w)^2. `balance` is 4 v w / (v + w)^2.
+//   mean 3 (v + w)^2.
 // The moments are those of normal noise that all channels of a pixel have alike (Isserlis 1918). Sums over tiles would know that
 // neighbours share noise, but take errors that differ from place to place for noise: twice too wide an interval. What neighbours share is
 // small against the noise that was taken away, which is in the first product and not shared. Errors are positive, so the interval is that
 // of the logarithm.
-Interval intervalOf(const std::vector<PixelError>& errors, double balance)
+Interval intervalOf(const std::vector<PixelError>& errors)
 {
     const auto count = static_cast<double>(errors.size());
     double sum = 0.0, products = 0.0, excesses = 0.0, spreads = 0.0;
@@ -71,9 +72,9 @@ Interval intervalOf(const std::vector<PixelError>& errors, double balance)
         sum += error.square();
         products += error.product * error.product;
         excesses += error.excess * error.excess;
-        spreads += error.spread * error.spread;
+        spreads += error.balance * error.spread * error.spread;
     }
-    const double variance = std::min(products, excesses) + 4.0 / 3.0 * balance * spreads;
+    const double variance = std::min(products, excesses) + 4.0 / 3.0 * spreads;
     const double mean = sum / count, halfWidth = twoSidedLimit(0.05) * std::sqrt(variance) / count;
     return mean > 0.0 ? Interval{mean, mean / std::exp(halfWidth / mean), mean * std::exp(halfWidth / mean)}
                       : Interval{mean, 0.0, mean + halfWidth};
@@ -112,7 +113,8 @@ public:
           noisyB_(std::move(second.noisy)),
           a_(std::move(first.denoised)),
           b_(std::move(second.denoised)),
-          balance_(balanceOf(first.samples, second.samples))
+          samplesA_(std::move(first.samples)),
+          samplesB_(std::move(second.samples))
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < a_.size(); ++i) {
@@ -145,7 +147,8 @@ private:
     PixelError errorOf(std::size_t i) const
     {
         const glm::dvec3 u = residual(noisyA_, a_, i), v = residual(noisyB_, b_, i);
-        return {meanOf(squaredDifference(a_, b_, i)) / 4.0, meanOf(u * v), meanOf(u * u - v * v) / 2.0};
+        return {meanOf(squaredDifference(a_, b_, i)) / 4.0, meanOf(u * v), meanOf(u * u - v * v) / 2.0,
+                balanceOf(samplesA_[i], samplesB_[i])};
     }
 
     // Of a squared error in relMSE, relative to this radiance (compare_images.hpp).
@@ -155,7 +158,8 @@ private:
 
     glm::uvec2 size_;
     std::vector<glm::vec3> noisyA_, noisyB_, a_, b_;
-    double balance_, mean_ = 0.0;
+    std::vector<std::uint32_t> samplesA_, samplesB_;
+    double mean_ = 0.0;
     std::vector<glm::dvec3> weights_;  // of relMSE
     std::size_t kept_ = 0;             // pixels that stay noisy
 };
@@ -195,7 +199,7 @@ DenoisedPicture Measurement::picture() const
     }
     picture.noisyShare = static_cast<double>(kept_) / count;
     picture.measured.mean = mean_;
-    picture.measured.mse = intervalOf(mse, balance_);
+    picture.measured.mse = intervalOf(mse);
     for (const glm::dvec3& square : averageAround(size_, squares)) {
         picture.error.emplace_back(glm::sqrt(glm::max(square, glm::dvec3(0.0))));
     }
@@ -206,9 +210,10 @@ DenoisedPicture Measurement::picture() const
 
 DenoisedHalf noisyHalf(const Film& film)
 {
-    DenoisedHalf half{{}, {}, film.pixels.front().count};
+    DenoisedHalf half;
     for (const PixelMoments& pixel : shownPixels(film)) {
         half.noisy.push_back(pixel.mean);
+        half.samples.push_back(pixel.count);
     }
     return half;
 }

@@ -36,10 +36,10 @@ struct DenoisedPicture {
     double noisyShare = 0.0;  // of the pixels: these stayed as they were, because denoising made their tile worse
 };
 
-// Half of the samples.
+// Half of the samples, of each pixel.
 struct DenoisedHalf {
     std::vector<glm::vec3> noisy, denoised;  // radiance
-    std::uint32_t samples;                   // of a pixel
+    std::vector<std::uint32_t> samples;
 };
 
 // The radiance and the samples of a half that is still to be denoised.

@@ -295,8 +295,10 @@ void resolveDenoise(const OptionTable& table, RenderJob& job)
     if (settings.aov != Aov::Radiance) {
         refuse(table, "--view", MessageId::Conflict, {"has next to no noise; expected ", part::expected("no --denoise")});
     }
-    if (settings.adaptive != Adaptive::Off) {
-        refuse(table, "--adaptive", MessageId::Conflict, {"does not give the two independent halves of the samples that --denoise needs"});
+    if (isCourse(settings.adaptive)) {
+        refuse(table, "--adaptive", MessageId::Conflict,
+               {"course stops a pixel by its own samples, so that halves of them are not independent, as --denoise needs them; expected ",
+                part::expected("--adaptive neighbours or off")});
     }
     const std::uint32_t least = minSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;
     if (samples < least) {

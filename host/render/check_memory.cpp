@@ -24,10 +24,11 @@ Memory computeMemory(const PreparedScene& prepared, const RenderSettings& settin
                                    pixels * Tile::bytesPerPixel(settings) + (light ? SplatBuffer::bytesFor(settings) : 0);
     // The film and what its error is estimated with; --adaptive neighbours has a second film. A checkpoint has a film, the last page and
     // the film that it shows, with --adaptive neighbours the second film too, and is copied once. Halves are two films without light
-    // groups, which a checkpoint has too, and three of their last page. A tile has a copy of its page.
+    // groups, which a checkpoint has too, and three of their last page; a checkpoint of --adaptive neighbours has one of these. A tile has
+    // a copy of its page.
     const std::uint64_t second = isNeighbours(settings.adaptive) ? 1 : 0, halves = settings.halves ? 2 : 0;
     const std::uint64_t grouped = 2 + second + (checkpoints ? 2 * (3 + second) : 0) + (settings.halves ? 3 : 0);
-    const std::uint64_t films = grouped + halves + (checkpoints ? 2 * halves : 0);
+    const std::uint64_t films = grouped + halves + (checkpoints ? 2 * (halves + (settings.halves ? second : 0)) : 0);
     const std::uint64_t groups = grouped * momentsOfGroups(settings.groupCount()) * sizeof(glm::vec3);
     const std::uint64_t onHost = pixels * (films * sizeof(PixelMoments) + groups +
                                            (light ? films * sizeof(SplatMoments) + groups + SplatSums::bytesPerPixel(settings) : 0) +

@@ -42,7 +42,7 @@ std::string computeDigest(const Checkpoint& checkpoint)
     digest.add(std::vector<std::uint32_t>{progress.sample, progress.pixelsAhead, progress.lightSample});
     if (progress.adaptive) {
         digest.add(std::vector<std::uint32_t>{adaptive.mean, adaptive.roundEnd, adaptive.commonEnd, adaptive.chosenBegin,
-                                              adaptive.choosing ? 1U : 0U});
+                                              adaptive.choosing ? 1U + (adaptive.second ? 1U : 0U) : 0U});
     }
     const FilmMoments* parts[] = {&checkpoint.film, &checkpoint.page, &checkpoint.common};
     const auto add = [&](auto member) {
@@ -59,6 +59,7 @@ std::string computeDigest(const Checkpoint& checkpoint)
     }
     digest.add(adaptive.chosen);
     digest.add(adaptive.blocksLeft);
+    digest.add(adaptive.blocksLater);
     return digest.finish();
 }
 
@@ -72,6 +73,7 @@ std::string computeHalvesDigest(const Checkpoint& checkpoint)
         digest.add(half.pixels);
         digest.add(half.splats);
     }
+    digest.add(checkpoint.before.pixels);
     return digest.finish();
 }
 

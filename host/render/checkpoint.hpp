@@ -15,7 +15,10 @@ struct Checkpoint {
     FilmMoments page;  // finished blocks that are not folded; what there is none of is empty
     FilmMoments
         common;  // of --adaptive neighbours: the samples that all pixels share, and the light paths with them. The film has them too
-    std::array<FilmMoments, 2> halves;  // of film and page together, of a render that keeps them (FilmHalves)
+    // Of a render that keeps halves (FilmHalves): those of film and page together, and, while it is at its chosen pixels, the page when
+    // these were last taken.
+    std::array<FilmMoments, 2> halves;
+    FilmMoments before;
 
     bool hasHalves() const { return !halves[0].pixels.empty() || !halves[1].pixels.empty(); }
 };

@@ -130,7 +130,7 @@ void FilmAccumulator::fold()
     if (splats_) {
         splats_->foldInto(film_);
     }
-    renewVersion();
+    beginPage();
 }
 
 void FilmAccumulator::foldCommon()
@@ -141,11 +141,19 @@ void FilmAccumulator::foldCommon()
     }
     common_.splats = film_.splats;
     common_.splatGroups = film_.splatGroups;
+    beginPage();
+}
+
+void FilmAccumulator::beginPage()
+{
+    if (halves_) {
+        halves_->beginPage();
+    }
     renewVersion();
 }
 
-// What the device and the open block of light paths have, which is not folded yet.
-FilmMoments FilmAccumulator::pageSoFar()
+// What the device has and is not folded yet.
+FilmMoments FilmAccumulator::tilesSoFar()
 {
     FilmMoments page = emptyMoments();
     std::vector<std::unique_ptr<Tile>> copies;
@@ -155,20 +163,47 @@ FilmMoments FilmAccumulator::pageSoFar()
     }
     foldPages({&page}, copies);
     finishFold();
+    return page;
+}
+
+// With the open block of light paths.
+FilmMoments FilmAccumulator::pageSoFar()
+{
+    FilmMoments page = tilesSoFar();
     if (splats_) {
         foldSplats(page, splats_->pageSoFar());
     }
     return page;
 }
 
-void FilmAccumulator::takeHalves(std::uint32_t sample, bool isLast)
+void FilmAccumulator::openHalves(std::uint32_t sample)
 {
     const bool isFirst = sample <= FilmHalves::nextEnd(settings_.sampleBegin);
     if (keepsHalves_ && !halves_ && (isFirst || sample % kPageSamples == 0)) {
         halves_.emplace(settings_, isFirst ? settings_.sampleBegin : sample);
     }
+}
+
+void FilmAccumulator::takeHalves(std::uint32_t sample, bool isLast)
+{
+    openHalves(sample);
     if (halves_) {
-        isLast ? halves_->takeLast(pageSoFar(), sample) : halves_->take(pageSoFar(), sample);
+        halves_->take(tilesSoFar(), sample, isLast);
+    }
+}
+
+void FilmAccumulator::takeSplatHalves(std::uint32_t sample, bool isLast)
+{
+    openHalves(sample);
+    if (halves_ && splats_) {
+        halves_->takeSplats(splats_->pageSoFar(), sample, isLast);
+    }
+}
+
+void FilmAccumulator::takeChosenHalves(std::size_t half)
+{
+    if (halves_) {
+        halves_->takeChosen(half, tilesSoFar());
     }
 }
 
@@ -203,15 +238,11 @@ std::vector<PixelMoments> FilmAccumulator::takePages()
     return std::move(page.pixels);
 }
 
-Checkpoint FilmAccumulator::checkpoint() const
+Checkpoint FilmAccumulator::checkpoint(SampleProgress progress) const
 {
     Checkpoint checkpoint;
+    checkpoint.progress = std::move(progress);
     checkpoint.film = folded();
-    if (halves_) {
-        checkpoint.halves = {halves_->films()[0], halves_->films()[1]};
-        checkpoint.page = halves_->page();
-        return checkpoint;
-    }
     FilmMoments& page = checkpoint.page;
     page.groups = GroupMoments(settings_.groupCount(), 0);
     const auto append = [](auto& pages, const auto& more) { pages.insert(pages.end(), more.begin(), more.end()); };
@@ -226,6 +257,14 @@ Checkpoint FilmAccumulator::checkpoint() const
     if (isEmpty(page.pixels)) {
         page = {};
     }
+    if (halves_) {
+        checkpoint.halves = {halves_->films()[0], halves_->films()[1]};
+        if (isChoosing(checkpoint.progress)) {
+            checkpoint.before.pixels = halves_->page().pixels;
+        } else {
+            page = halves_->page();
+        }
+    }
     if (splats_ && !isEmpty(splats_->page().splats)) {
         foldSplats(page, splats_->page());
     }
@@ -237,7 +276,12 @@ void FilmAccumulator::resume(Checkpoint checkpoint)
 {
     finishFold();
     if (keepsHalves_) {
-        halves_.emplace(settings_, std::move(checkpoint.halves), checkpoint.page, checkpoint.progress.sample);
+        const SampleProgress& progress = checkpoint.progress;
+        FilmMoments page = isChoosing(progress) ? std::move(checkpoint.before) : checkpoint.page, splats;
+        page.splats.clear();
+        page.splatGroups = {};
+        splats.splats = checkpoint.page.splats;
+        halves_.emplace(settings_, std::move(checkpoint.halves), std::move(page), progress.sample, std::move(splats), progress.lightSample);
     }
     const Film fresh = std::exchange(film_, std::move(checkpoint.film));
     film_.identity = fresh.identity;  // without what a film's file says of its camera

@@ -50,8 +50,11 @@ public:
     void foldCommon();
     // Of this picture, if the settings ask for halves that are late. Before there is half a block they lose no sample.
     void keepHalves() { keepsHalves_ = settings_.halves; }
-    // The samples that are not folded, which end before `sample`, into the halves, if there are any. Last: the render is at its end.
+    // The samples that are not folded into the halves, if there are any: those of all pixels, of light paths, and of chosen pixels, whose
+    // blocks go to one half after the other. They end before `sample`. Last: the render is at its end.
     void takeHalves(std::uint32_t sample, bool isLast);
+    void takeSplatHalves(std::uint32_t sample, bool isLast);
+    void takeChosenHalves(std::size_t half);
 
     // All samples so far; sampling may go on.
     Film sum();
@@ -61,8 +64,8 @@ public:
     // The samples that are not folded, as a film of its own. They are gone then.
     std::vector<PixelMoments> takePages();
 
-    // Without the blocks that are not finished; if halves are kept, without those that some pixel has not finished.
-    Checkpoint checkpoint() const;
+    // Without the blocks that are not finished; if halves are kept, without those that all pixels should have and some have not finished.
+    Checkpoint checkpoint(SampleProgress progress) const;
     void resume(Checkpoint checkpoint);
 
 private:
@@ -72,7 +75,10 @@ private:
     void foldPages(const std::vector<FilmMoments*>& films, const std::vector<std::unique_ptr<Tile>>& tiles);
     void finishFold() const;
     FilmMoments emptyMoments() const;
+    FilmMoments tilesSoFar();
     FilmMoments pageSoFar();
+    void beginPage();
+    void openHalves(std::uint32_t sample);
     void renewVersion();
 
     RenderResources& resources_;

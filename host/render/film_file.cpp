@@ -34,7 +34,7 @@ constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenE
 constexpr const char* kBackground = "glim:background";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 constexpr const char* kHalvesDigest = "glim:halvesDigest";                                    // of those with halves
-constexpr const char* kHalves[] = {"firstHalf.", "secondHalf."};
+constexpr const char *kHalves[] = {"firstHalf.", "secondHalf."}, *kBefore = "before.";
 
 bool hasErrors(const Film& film)
 {
@@ -70,7 +70,7 @@ std::string progressText(const Checkpoint& checkpoint, const std::string& folded
     text << folded << ' ' << progress.sample << ' ' << progress.pixelsAhead << ' ' << progress.lightSample;
     if (const auto& adaptive = progress.adaptive) {
         text << ' ' << adaptive->mean << ' ' << adaptive->roundEnd << ' ' << adaptive->commonEnd << ' ' << adaptive->chosenBegin << ' '
-             << adaptive->choosing;
+             << (adaptive->choosing ? 1 + static_cast<int>(adaptive->second) : 0);
     }
     return text.str();
 }
@@ -86,6 +86,7 @@ void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& 
     for (std::size_t i = 0; i < 2; ++i) {
         addMoments(checkpoint.halves[i], {}, run, image, kHalves[i]);
     }
+    addMoments(checkpoint.before, {}, run, image, kBefore);
     if (const auto& adaptive = checkpoint.progress.adaptive) {
         const auto copy = [&run](const std::vector<std::uint32_t>& counts) {
             const std::span<const std::uint32_t> part = run.of(counts);
@@ -93,6 +94,9 @@ void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& 
         };
         image.counts["chosen.X"] = copy(adaptive->chosen);
         image.counts["blocksLeft.X"] = copy(adaptive->blocksLeft);
+        if (!adaptive->blocksLater.empty()) {
+            image.counts["blocksLater.X"] = copy(adaptive->blocksLater);
+        }
     }
 }
 
@@ -286,7 +290,10 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
     std::string folded;
     stream >> folded >> progress.sample >> progress.pixelsAhead >> progress.lightSample;
     if (AdaptiveProgress a; !stream.fail() && !stream.eof()) {
-        stream >> a.mean >> a.roundEnd >> a.commonEnd >> a.chosenBegin >> a.choosing;
+        int choosing = 0;
+        stream >> a.mean >> a.roundEnd >> a.commonEnd >> a.chosenBegin >> choosing;
+        a.choosing = choosing > 0;
+        a.second = choosing > 1;
         progress.adaptive = a;
     }
     if (stream.fail() || !stream.eof() || progress.pixelsAhead >= pixels || (folded != kAll && folded != kNothing && folded != kApart)) {
@@ -311,12 +318,17 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
         adaptive->blocksLeft.resize(pixels);
         takeCounts(path, image, "chosen.X", adaptive->chosen);
         takeCounts(path, image, "blocksLeft.X", adaptive->blocksLeft);
+        if (image.counts.contains("blocksLater.X")) {
+            adaptive->blocksLater.resize(pixels);
+            takeCounts(path, image, "blocksLater.X", adaptive->blocksLater);
+        }
     }
     checkDigest(path, "checkpoint", computeDigest(checkpoint), attribute<std::string>(path, image, kProgressDigest));
     if (const std::string digest = textIfPresent(image, kHalvesDigest); !digest.empty()) {
         for (std::size_t i = 0; i < 2; ++i) {
             takeMoments(path, image, {}, checkpoint.halves[i], kHalves[i]);
         }
+        takeMoments(path, image, {}, checkpoint.before, kBefore);
         checkDigest(path, "halves", computeHalvesDigest(checkpoint), digest);
     }
     return checkpoint;

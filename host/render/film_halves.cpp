@@ -4,6 +4,7 @@
 #include "host/render/sample_plan.hpp"
 #include "shaders/shared/limits.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace glim {
@@ -15,28 +16,23 @@ SplatMoments withoutMoments(const SplatMoments& all, const SplatMoments& part)
 }
 
 template <class Moments>
-void foldRest(std::vector<Moments>& film, const std::vector<Moments>& all, const std::vector<Moments>& part)
+void foldRest(std::vector<Moments>& half, const std::vector<Moments>& all, const std::vector<Moments>& part)
 {
-    film.resize(all.size(), Moments{});
+    half.resize(all.size(), Moments{});
     for (std::size_t i = 0; i < all.size(); ++i) {
-        film[i] = foldMoments(film[i], part.empty() ? withoutMoments(all[i], Moments{}) : withoutMoments(all[i], part[i]));
+        half[i] = foldMoments(half[i], withoutMoments(all[i], part.empty() ? Moments{} : part[i]));
     }
-}
-
-void foldRest(FilmMoments& half, const FilmMoments& all, const FilmMoments& part)
-{
-    foldRest(half.pixels, all.pixels, part.pixels);
-    foldRest(half.splats, all.splats, part.splats);
 }
 
 // Leaves `other` empty.
-void join(FilmMoments& half, FilmMoments& other)
+template <class Moments>
+void join(std::vector<Moments>& half, std::vector<Moments>& other)
 {
-    if (half.pixels.empty()) {
-        std::swap(half, other);
-    } else {
-        foldMoments(half, std::exchange(other, {}));
+    half.resize(other.size(), Moments{});
+    for (std::size_t i = 0; i < other.size(); ++i) {
+        half[i] = foldMoments(half[i], other[i]);
     }
+    other.clear();
 }
 
 }  // namespace
@@ -66,7 +62,7 @@ PixelMoments withoutMoments(const PixelMoments& all, const PixelMoments& part)
 
 HalfSizes::Place HalfSizes::add(std::uint32_t samples, std::uint32_t size)
 {
-    Place place{sizes_[0] + sizes_[1] <= size && samples >= size / 2, sizes_[1] < sizes_[0] ? 1U : 0U};
+    Place place{joins_ && sizes_[0] + sizes_[1] <= size && samples >= size / 2, sizes_[1] < sizes_[0] ? 1U : 0U};
     if (place.joins) {
         sizes_ = {sizes_[0] + sizes_[1], 0};
         place.half = 1;
@@ -75,22 +71,69 @@ HalfSizes::Place HalfSizes::add(std::uint32_t samples, std::uint32_t size)
     return place;
 }
 
-FilmHalves::FilmHalves(const RenderSettings& settings, std::uint32_t begin)
-    : films_{emptyFilm(settings), emptyFilm(settings)},
-      taken_(begin)
-{}
-
-FilmHalves::FilmHalves(const RenderSettings& settings, std::array<FilmMoments, 2> halves, FilmMoments page, std::uint32_t sample)
-    : FilmHalves(settings)
+std::uint32_t blocksOfFirstHalf(std::uint32_t first, std::uint32_t second, std::uint32_t blocks)
 {
-    for (std::size_t i = 0; i < 2; ++i) {
-        static_cast<FilmMoments&>(films_[i]) = std::move(halves[i]);
-    }
+    const std::int64_t lead = std::int64_t{first} - std::int64_t{second}, all = std::int64_t{blocks} * kBlockSamples;
+    const std::int64_t doubled = std::clamp<std::int64_t>(all - lead, 0, 2 * all);  // samples of the first half's share, twice
+    return static_cast<std::uint32_t>((doubled + kBlockSamples - 1) / (2 * kBlockSamples));
+}
+
+template <auto kMoments>
+void HalvedRun<kMoments>::resume(FilmMoments page, std::uint32_t sample)
+{
     before_ = std::move(page);
     while (taken_ < sample) {
         sizes_.add(blockEnd(taken_) - taken_, blockSamples(taken_));
         taken_ = blockEnd(taken_);
     }
+}
+
+template <auto kMoments>
+void HalvedRun<kMoments>::take(std::array<Film, 2>& halves, FilmMoments page, std::uint32_t sample, bool isLast)
+{
+    if (sample == taken_) {
+        return;
+    }
+    if (sample != blockEnd(taken_) && !isLast) {
+        middle_ = std::move(page);
+        return;
+    }
+    const HalfSizes::Place place = sizes_.add(sample - taken_, blockSamples(taken_));
+    if (place.joins) {
+        join(halves[0].*kMoments, halves[1].*kMoments);
+    }
+    if (!(middle_.*kMoments).empty()) {
+        takeOthers(halves[place.half], std::exchange(middle_, {}));
+    }
+    takeOthers(halves[place.half], std::move(page));
+    taken_ = sample;
+}
+
+template <auto kMoments>
+void HalvedRun<kMoments>::takeOthers(Film& half, FilmMoments page)
+{
+    foldRest(half.*kMoments, page.*kMoments, before_.*kMoments);
+    before_ = std::move(page);
+}
+
+template class HalvedRun<&FilmMoments::pixels>;
+template class HalvedRun<&FilmMoments::splats>;
+
+FilmHalves::FilmHalves(const RenderSettings& settings, std::uint32_t begin)
+    : films_{emptyFilm(settings), emptyFilm(settings)},
+      pixels_(begin, !isNeighbours(settings.adaptive)),
+      splats_(begin, true)
+{}
+
+FilmHalves::FilmHalves(const RenderSettings& settings, std::array<FilmMoments, 2> halves, FilmMoments page, std::uint32_t sample,
+                       FilmMoments splatPage, std::uint32_t splatSample)
+    : FilmHalves(settings)
+{
+    for (std::size_t i = 0; i < 2; ++i) {
+        static_cast<FilmMoments&>(films_[i]) = std::move(halves[i]);
+    }
+    pixels_.resume(std::move(page), sample);
+    splats_.resume(std::move(splatPage), splatSample);
 }
 
 std::uint32_t FilmHalves::nextEnd(std::uint32_t sample)
@@ -99,32 +142,10 @@ std::uint32_t FilmHalves::nextEnd(std::uint32_t sample)
     return (sample / half + 1) * half;
 }
 
-void FilmHalves::take(FilmMoments page, std::uint32_t sample)
+void FilmHalves::beginPage()
 {
-    if (sample == blockEnd(taken_)) {
-        takeLast(std::move(page), sample);
-    } else {
-        middle_ = std::move(page);
-    }
-}
-
-void FilmHalves::takeLast(FilmMoments page, std::uint32_t sample)
-{
-    if (sample == taken_) {
-        return;
-    }
-    const HalfSizes::Place place = sizes_.add(sample - taken_, blockSamples(taken_));
-    if (place.joins) {
-        join(films_[0], films_[1]);
-    }
-    Film& half = films_[place.half];
-    if (!middle_.pixels.empty()) {
-        foldRest(half, middle_, before_);
-        before_ = std::exchange(middle_, {});
-    }
-    foldRest(half, page, before_);
-    before_ = sample % kPageSamples == 0 ? FilmMoments() : std::move(page);
-    taken_ = sample;
+    pixels_.beginPage();
+    splats_.beginPage();
 }
 
 }  // namespace glim

@@ -138,7 +138,12 @@ Film Renderer::render(const RenderObserver& observer, const StoppingCriterion& c
     if (atEnd) {
         atEnd();
     }
-    films_->takeHalves(plan_.endOfSamples(), true);
+    if (const auto half = plan_.chosenHalf()) {
+        films_->takeChosenHalves(*half);
+    } else {
+        films_->takeHalves(plan_.endOfSamples(), true);
+    }
+    films_->takeSplatHalves(plan_.lightSample(), true);
     Film film = films_->takeFilm();
     statistics_.renderSeconds = secondsSinceStart();
     readCounters();
@@ -253,6 +258,9 @@ bool Renderer::trace(const LightPass& pass, const std::function<bool()>& shouldC
     }
     films_->addSplats(pass);
     plan_.finish(pass);
+    if (plan_.lightSample() == FilmHalves::nextEnd(plan_.lightSample() - 1)) {
+        films_->takeSplatHalves(plan_.lightSample(), false);
+    }
     addSeconds(*seconds);
     return true;
 }
@@ -279,8 +287,10 @@ void Renderer::carryOut(PlanTask task)
     case PlanTask::ChoosePixels: films_->choosePixels(plan_.sweep()); break;
     case PlanTask::TestPixels: plan_.choose(films_->testPixels(plan_.sampleCount())); break;
     case PlanTask::TakeHalves: films_->takeHalves(plan_.endOfSamples(), false); break;
+    case PlanTask::TakeFirstHalf: films_->takeChosenHalves(0); break;
+    case PlanTask::TakeSecondHalf: films_->takeChosenHalves(1); break;
     case PlanTask::FoldCommon: films_->foldCommon(); break;
-    case PlanTask::Allocate: plan_.allocate(computeShares(films_->common(), error), passSize_.paths()); break;
+    case PlanTask::Allocate: plan_.allocate(computeShares(films_->common(), error), films_->halves(), passSize_.paths()); break;
     case PlanTask::Fold: films_->fold(); break;
     }
 }
@@ -352,10 +362,9 @@ std::optional<Checkpoint> Renderer::checkpoint()
     if (!progress) {
         return std::nullopt;
     }
-    Checkpoint checkpoint = films_->checkpoint();
-    progress->describe(checkpoint.film, settings_.sampleBegin);
+    Checkpoint checkpoint = films_->checkpoint(*std::move(progress));
+    checkpoint.progress.describe(checkpoint.film, settings_.sampleBegin);
     checkpoint.film.seconds = resumedSeconds_ + secondsSinceStart();
-    checkpoint.progress = *std::move(progress);
     return checkpoint;
 }
 

@@ -164,6 +164,11 @@ void SamplePlan::resume(SampleProgress progress, std::uint32_t paths)
         commonEnd_ = adaptive->commonEnd;
         pictureSamples_ = std::accumulate(adaptive->chosen.begin(), adaptive->chosen.end(), pictureSamples_);
         chosenBlocks_ = BlockQueue(adaptive->chosenBegin, std::move(adaptive->chosen), std::move(adaptive->blocksLeft));
+        laterBlocks_ = std::move(adaptive->blocksLater);
+        second_ = adaptive->second;
+        if (!settings_.halves) {
+            beginSecondHalf();
+        }
         if (adaptive->choosing) {
             startChosenSweep(paths);
         }
@@ -184,11 +189,11 @@ std::optional<SampleProgress> SamplePlan::progress() const
     if (progress.sample == settings_.sampleBegin && progress.pixelsAhead == 0) {
         return std::nullopt;
     }
-    const bool lightIsAhead = tracesLight_ && !settings_.halves;
-    progress.lightSample = lightIsAhead ? finishedBlocks(settings_.sampleBegin, lightSample_) : progress.sample;
+    progress.lightSample = tracesLight_ ? finishedBlocks(settings_.sampleBegin, lightSample_) : progress.sample;
     if (adaptive) {
-        AdaptiveProgress& now = progress.adaptive.emplace(AdaptiveProgress{mean_, roundEnd_, commonEnd_, chosenBlocks_.begin(), choosing_,
-                                                                           chosenBlocks_.samples(), chosenBlocks_.blocks()});
+        AdaptiveProgress& now =
+            progress.adaptive.emplace(AdaptiveProgress{mean_, roundEnd_, commonEnd_, chosenBlocks_.begin(), choosing_, second_,
+                                                       chosenBlocks_.samples(), chosenBlocks_.blocks(), laterBlocks_});
         for (std::size_t i = cursor_.pixelsDone(); choosing_ && i < sweep_.pixels.size(); ++i) {
             now.chosen[sweep_.pixels[i].pixel] -= sweep_.sampleCount;
             now.blocksLeft[sweep_.pixels[i].pixel] += sweep_.sampleCount / kBlockSamples;
@@ -255,7 +260,8 @@ std::optional<LightPass> SamplePlan::nextLight(std::uint32_t paths) const
     if (!tracesLight_ || lightSample_ >= lightEnd()) {
         return std::nullopt;
     }
-    const std::uint32_t most = std::min(lightEnd(), blockEnd(lightSample_)) - lightSample_;
+    const std::uint32_t end = settings_.halves ? FilmHalves::nextEnd(lightSample_) : blockEnd(lightSample_);
+    const std::uint32_t most = std::min(lightEnd(), end) - lightSample_;
     return LightPass{lightSample_, std::clamp(paths / lightPathCount(settings_.width, settings_.height), 1U, most)};
 }
 
@@ -312,22 +318,47 @@ void SamplePlan::choose(std::vector<std::uint32_t> counts)
     plannedSamples_ = pictureSamples_ + chosen_ * (settings_.sampleEnd - sample_);
 }
 
-void SamplePlan::allocate(const std::vector<double>& shares, std::uint32_t paths)
+void SamplePlan::allocate(const std::vector<double>& shares, const FilmHalves* halves, std::uint32_t paths)
 {
-    chosenBlocks_.add(allocateBlocks(shares, chosenBlocks_.samples(), roundEnd_ - commonEnd_));
+    std::vector<std::uint32_t> blocks = allocateBlocks(shares, chosenBlocks_.samples(), roundEnd_ - commonEnd_);
+    if (halves != nullptr) {
+        laterBlocks_ = blocks;
+        const auto& [first, second] = halves->films();
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            blocks[i] = blocksOfFirstHalf(first.pixels[i].count, second.pixels[i].count, blocks[i]);
+            laterBlocks_[i] -= blocks[i];
+        }
+    }
+    chosenBlocks_.add(blocks);
     startChosenSweep(paths);
+}
+
+void SamplePlan::beginSecondHalf()
+{
+    if (!laterBlocks_.empty()) {
+        chosenBlocks_.add(std::exchange(laterBlocks_, {}));
+    }
 }
 
 // Ends the round if no pixel is to have more.
 void SamplePlan::startChosenSweep(std::uint32_t paths)
 {
     auto sweep = chosenBlocks_.take(paths);
+    if (!sweep && !laterBlocks_.empty()) {
+        tasks_.push_back(PlanTask::TakeFirstHalf);
+        beginSecondHalf();
+        second_ = true;
+        sweep = chosenBlocks_.take(paths);
+    }
     choosing_ = sweep.has_value();
     if (choosing_) {
         sweep_ = *std::move(sweep);
         cursor_ = SweepCursor(countByTile(sweep_.pixels, settings_));
         tasks_.push_back(PlanTask::ChoosePixels);
     } else {
+        if (std::exchange(second_, false)) {
+            tasks_.push_back(PlanTask::TakeSecondHalf);
+        }
         sweeping_ = false;
         mean_ = roundEnd_;
         tasks_.push_back(PlanTask::Fold);

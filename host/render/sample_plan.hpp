@@ -21,6 +21,8 @@
 
 namespace glim {
 
+class FilmHalves;
+
 // Samples of some of a tile's chosen pixels.
 struct CameraPass {
     std::size_t tile = 0;
@@ -64,12 +66,14 @@ private:
 
 // How far --adaptive neighbours is.
 struct AdaptiveProgress {
-    std::uint32_t mean = 0, roundEnd = 0;   // samples per pixel on average after the last round, and after the one under way
-    std::uint32_t commonEnd = 0;            // of the samples that all pixels share in this round
-    std::uint32_t chosenBegin = 0;          // index of the first samples that pixels have besides
-    bool choosing = false;                  // the round is at these
-    std::vector<std::uint32_t> chosen;      // how many samples each pixel has besides, and
-    std::vector<std::uint32_t> blocksLeft;  // how many blocks it is still to get in this round
+    std::uint32_t mean = 0, roundEnd = 0;    // samples per pixel on average after the last round, and after the one under way
+    std::uint32_t commonEnd = 0;             // of the samples that all pixels share in this round
+    std::uint32_t chosenBegin = 0;           // index of the first samples that pixels have besides
+    bool choosing = false;                   // the round is at these
+    bool second = false;                     // and at those of the second half
+    std::vector<std::uint32_t> chosen;       // how many samples each pixel has besides, and
+    std::vector<std::uint32_t> blocksLeft;   // how many blocks it is still to get in this round,
+    std::vector<std::uint32_t> blocksLater;  // and how many for the second half behind them, if halves are kept and it is at the first
 };
 
 // What has been taken, in whole blocks. A plan goes on from it as if it had never stopped.
@@ -83,12 +87,16 @@ struct SampleProgress {
     void describe(Film& film, std::uint32_t begin) const;
 };
 
+inline bool isChoosing(const SampleProgress& progress) { return progress.adaptive && progress.adaptive->choosing; }
+
 // What a plan asks for between passes.
 enum class PlanTask {
     ChooseAllPixels,  // of all tiles
     ChoosePixels,     // those of SamplePlan::sweep()
     TestPixels,       // choose those that the course's rule has not stopped; SamplePlan::choose() takes their numbers
     TakeHalves,       // FilmHalves, if they are wanted
+    TakeFirstHalf,    // of the chosen pixels' samples,
+    TakeSecondHalf,   // and the second one
     FoldCommon,       // the samples that all pixels share, into the film and into the one that allocation is based on
     Allocate,         // SamplePlan::allocate() takes the shares
     Fold,             // all samples so far into the film
@@ -103,7 +111,7 @@ public:
     bool canResume(const SampleProgress& progress) const;
     void resume(SampleProgress progress, std::uint32_t paths);
     // Nothing before the first block, within one of an adaptive render, and if the adaptive rule is the course's. Halves are of whole
-    // blocks, so no pixel is ahead if they are kept.
+    // blocks, so no pixel is ahead if they are kept, but for chosen ones.
     std::optional<SampleProgress> progress() const;
 
     // A picture is rendered by: rounds, as long as beginRound() begins one, each with its tasks; then a light pass, or else a pass and its
@@ -116,10 +124,13 @@ public:
     void finish(const CameraPass& pass, std::uint32_t paths);
     bool isDone() const { return chosen_ == 0 || (isNeighbours(settings_.adaptive) ? mean_ : sample_) == settings_.sampleEnd; }
 
-    // Answers to tasks: the chosen pixels of each tile, and each pixel's share of a round's samples (allocate_samples.hpp).
+    // Answers to tasks: the chosen pixels of each tile, and each pixel's share of a round's samples (allocate_samples.hpp). halves: those
+    // that are kept, which its blocks go to one after the other; or null.
     void choose(std::vector<std::uint32_t> counts);
-    void allocate(const std::vector<double>& shares, std::uint32_t paths);
+    void allocate(const std::vector<double>& shares, const FilmHalves* halves, std::uint32_t paths);
     const std::vector<PixelStart>& sweep() const { return sweep_.pixels; }
+    // The half that the samples of chosen pixels go to, while these are taken.
+    std::optional<std::size_t> chosenHalf() const { return choosing_ ? std::optional<std::size_t>(second_ ? 1 : 0) : std::nullopt; }
 
     // The stopping rule. To be asked before the first pass: how many samples a picture with a target takes is known only later.
     void expectTarget();
@@ -134,6 +145,8 @@ public:
     std::uint64_t pictureSamples() const { return pictureSamples_; }
     std::uint64_t plannedSamples() const { return plannedSamples_; }
     std::uint64_t resumedSamples() const { return resumedSamples_; }  // of pictureSamples(), those before resume()
+    // The first sample without light paths.
+    std::uint32_t lightSample() const { return lightSample_; }
     // The first sample that some pixels lack and, within a sweep, the first that all lack.
     std::uint32_t endOfSamples() const { return sweeping_ && !choosing_ ? sweepEnd() : sample_; }
     // Sets the sample ranges and the completeness of a film that has all samples so far.
@@ -146,6 +159,7 @@ private:
     bool isBetweenRounds() const { return mean_ == roundEnd_; }
     void endSweep(std::uint32_t paths);
     void startChosenSweep(std::uint32_t paths);
+    void beginSecondHalf();
 
     RenderSettings settings_;
     bool tracesLight_;
@@ -162,12 +176,14 @@ private:
     double timesToTarget_ = std::numeric_limits<double>::infinity();
 
     // For --adaptive neighbours.
-    std::uint32_t mean_ = 0;       // mean samples per pixel after the last round
-    std::uint32_t roundEnd_ = 0;   // the same after the current round
-    std::uint32_t commonEnd_ = 0;  // number of samples that all pixels share, at the end of the current round
-    BlockQueue chosenBlocks_;      // the samples of chosen pixels
-    bool choosing_ = false;        // the current sweep is over chosen pixels
-    Sweep sweep_;                  // that one
+    std::uint32_t mean_ = 0;                  // mean samples per pixel after the last round
+    std::uint32_t roundEnd_ = 0;              // the same after the current round
+    std::uint32_t commonEnd_ = 0;             // number of samples that all pixels share, at the end of the current round
+    BlockQueue chosenBlocks_;                 // the samples of chosen pixels
+    std::vector<std::uint32_t> laterBlocks_;  // of each pixel, for the second half, while the first one has its turn
+    bool second_ = false;                     // the second half has its turn
+    bool choosing_ = false;                   // the current sweep is over chosen pixels
+    Sweep sweep_;                             // that one
 };
 
 // How many of `pixels`, in ascending order, each tile has.

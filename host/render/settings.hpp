@@ -98,7 +98,7 @@ struct RenderSettings {
     bool catcher = false;                  // the film keeps what shadow catchers show; only of scenes with kFeatureCatcher (catches())
     bool catcherReflections = true;        // they reflect objects and their light
     std::vector<std::string> lightGroups;  // the film keeps their light apart; those of the scene, or none (keepsGroups())
-    bool halves = false;                   // the samples in two independent halves too (film_halves.hpp); only with Adaptive::Off
+    bool halves = false;                   // the samples in two independent halves too (film_halves.hpp); not with Adaptive::Course
     bool halvesLate = false;               // the halves begin when Renderer::keepHalves() is called
     bool comparesPaths = false;            // splats count what camera paths would bring (light_path_gain.hpp), in place of clamped light
     bool notes = false;                    // kernels record what happens to the only path of a pass (replay.hpp)

@@ -260,9 +260,13 @@ void writeFilms(const fs::path& folder)
     writeFilm(folder / "halves.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.halves = {};
     checkpoint.progress.adaptive =
-        AdaptiveProgress{64, 128, 64, 128, true, std::vector<std::uint32_t>(6, 4), std::vector<std::uint32_t>(6, 2)};
+        AdaptiveProgress{64, 128, 64, 128, true, false, std::vector<std::uint32_t>(6, 4), std::vector<std::uint32_t>(6, 2), {}};
     checkpoint.common = checkpoint.page;
     writeFilm(folder / "adaptive.exr", makeFilm(checkpoint), checkpoint);
+    checkpoint.progress.adaptive->blocksLater = checkpoint.progress.adaptive->blocksLeft;
+    checkpoint.halves = {checkpoint.page, checkpoint.page};
+    checkpoint.before = checkpoint.page;
+    writeFilm(folder / "adaptive_halves.exr", makeFilm(checkpoint), checkpoint);
 }
 
 }  // namespace

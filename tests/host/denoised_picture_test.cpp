@@ -42,10 +42,10 @@ FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
             block.mean = truthAt(i) + static_cast<float>(error);  // of light: all channels alike
             page.pixels[i] = foldMoments(page.pixels[i], block);
         }
-        halves.take(page, end);
+        halves.take(page, end, false);
         sample = end;
     }
-    halves.takeLast(page, 96);
+    halves.take(page, 96, true);
     return halves;
 }
 
@@ -183,6 +183,7 @@ FilmHalves halvesOfOnePixel(std::uint32_t begin, std::uint32_t end)
     for (std::uint32_t sample = begin; sample < end;) {
         const std::uint32_t next = std::min(end, FilmHalves::nextEnd(sample));
         if (sample == begin || sample % kPageSamples == 0) {
+            halves.beginPage();
             page.pixels.assign(1, {});
             page.splats.assign(1, {});
         }
@@ -193,11 +194,13 @@ FilmHalves halvesOfOnePixel(std::uint32_t begin, std::uint32_t end)
         page.pixels[0] = foldMoments(page.pixels[0], part);
         page.splats[0] = foldMoments(page.splats[0], {part.count, 1, 10.0F * part.mean, glm::vec3(0.0F), 0.0F});
         if (next == FilmHalves::nextEnd(sample)) {
-            halves.take(page, next);
+            halves.take(page, next, false);
+            halves.takeSplats(page, next, false);
         }
         sample = next;
     }
-    halves.takeLast(page, end);
+    halves.take(page, end, true);
+    halves.takeSplats(page, end, true);
     return halves;
 }
 

@@ -134,6 +134,22 @@ TEST(FilmFile, CheckpointsHaveHalves)
         EXPECT_EQ(computeDigest(*stored.checkpoint), computeDigest(checkpoint));
         EXPECT_TRUE(readDenoised(folder / "a.exr"));
     }
+    for (const bool second : {false, true}) {
+        const std::vector<std::uint32_t> counts(checkpoint.film.pixels.size(), second ? 3 : 4);
+        checkpoint.progress.adaptive = AdaptiveProgress{64, 128, 64, 128, true, second, counts, counts, {}};
+        checkpoint.progress.adaptive->blocksLater.resize(second ? 0 : counts.size(), 2);
+        checkpoint.before.pixels = second ? simulateFilm(64, 128).pixels : std::vector<PixelMoments>();
+        checkpoint.common = checkpoint.halves[0];
+        writeFilm(folder / "a.exr", makeFilm(checkpoint), checkpoint);
+        const Checkpoint back = readStoredFilm(folder / "a.exr").checkpoint.value();
+        EXPECT_EQ(back.progress.adaptive->second, second);
+        EXPECT_EQ(back.progress.adaptive->blocksLater, checkpoint.progress.adaptive->blocksLater);
+        EXPECT_TRUE(sameBits(back.before.pixels, checkpoint.before.pixels));
+        EXPECT_EQ(computeHalvesDigest(back), computeHalvesDigest(checkpoint));
+        EXPECT_EQ(computeDigest(back), computeDigest(checkpoint));
+    }
+    checkpoint.progress.adaptive.reset();
+    checkpoint.common = checkpoint.before = {};
     checkpoint.halves = {};
     writeFilm(folder / "a.exr", makeFilm(checkpoint), checkpoint);
     EXPECT_FALSE(readStoredFilm(folder / "a.exr").checkpoint->hasHalves());

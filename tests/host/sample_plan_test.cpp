@@ -70,7 +70,7 @@ struct Taken {
     std::vector<std::vector<PixelStart>> chosen;  // of each tile
     std::vector<std::vector<std::uint32_t>> samples;
     std::uint32_t lightEnd = 0;
-    int folds = 0, commonFolds = 0, halves = 0;
+    int folds = 0, commonFolds = 0;
 };
 
 // A render by a plan. Pixels with higher indices get larger shares.
@@ -82,6 +82,9 @@ struct PlannedRender {
           taken(of)
     {
         taken.lightEnd = of.sampleBegin;
+        if (of.halves) {
+            halves.emplace(of);
+        }
     }
 
     // False at the end.
@@ -149,17 +152,44 @@ struct PlannedRender {
             case PlanTask::ChooseAllPixels: taken.chooseAll(); break;
             case PlanTask::ChoosePixels: taken.choose(plan.sweep()); break;
             case PlanTask::TestPixels: plan.choose(taken.test()); break;
-            case PlanTask::TakeHalves: ++taken.halves; break;
-            case PlanTask::FoldCommon: ++taken.commonFolds; break;
-            case PlanTask::Fold: ++taken.folds; break;
+            case PlanTask::TakeHalves: halves->take(page(), plan.endOfSamples(), false); break;
+            case PlanTask::TakeFirstHalf: halves->takeChosen(0, page()); break;
+            case PlanTask::TakeSecondHalf: halves->takeChosen(1, page()); break;
+            case PlanTask::FoldCommon: beginPage(taken.commonFolds); break;
+            case PlanTask::Fold: beginPage(taken.folds); break;
             case PlanTask::Allocate: {
                 std::vector<double> shares(settings.pixelCount());
                 for (std::size_t i = 0; i < shares.size(); ++i) {
                     shares[i] = 2.0 * static_cast<double>(i) / static_cast<double>(shares.size() - 1);
                 }
-                plan.allocate(shares, 100);
+                plan.allocate(shares, halves ? &*halves : nullptr, 100);
             }
             }
+        }
+    }
+
+    // As many samples of each pixel as are not folded. One is as bright as its index.
+    FilmMoments page() const
+    {
+        FilmMoments page;
+        for (std::size_t i = 0; i < taken.samples.size(); ++i) {
+            PixelMoments pixel{};
+            for (std::size_t k = folded.empty() ? 0 : folded[i]; k < taken.samples[i].size(); ++k) {
+                pixel = foldMoments(pixel, {.count = 1, .blocks = 1, .mean = glm::vec3(static_cast<float>(taken.samples[i][k]))});
+            }
+            page.pixels.push_back(pixel);
+        }
+        return page;
+    }
+    void beginPage(int& count)
+    {
+        ++count;
+        folded.clear();
+        for (const std::vector<std::uint32_t>& samples : taken.samples) {
+            folded.push_back(samples.size());
+        }
+        if (halves) {
+            halves->beginPage();
         }
     }
 
@@ -168,6 +198,8 @@ struct PlannedRender {
     std::mt19937 random{1};
     SamplePlan plan;
     Taken taken;
+    std::optional<FilmHalves> halves;
+    std::vector<std::size_t> folded;  // of each pixel's samples
 };
 
 RenderSettings makeSettings(std::uint32_t begin, std::uint32_t end)
@@ -318,6 +350,45 @@ TEST(SamplePlanTest, InterruptedAdaptiveRendersHaveTheSame)
             EXPECT_EQ(render.taken.samples[i].size(), whole.taken.samples[i].size()) << i;
         }
     }
+}
+
+// Chosen pixels' blocks go to the smaller half. What all pixels share may differ by a block behind that, less half a one. Nothing else
+// changes.
+TEST(SamplePlanTest, AdaptiveRendersHaveHalves)
+{
+    for (const std::uint32_t mean : {192U, 640U, 1024U}) {
+        RenderSettings settings = makeSettings(0, mean);
+        settings.adaptive = Adaptive::Neighbours;
+        PlannedRender plain(settings, true);
+        while (plain.advance()) {
+        }
+        settings.halves = true;
+        PlannedRender render(settings, true);
+        while (render.advance()) {
+        }
+        expectAllocated(render, mean);
+        EXPECT_EQ(render.taken.lightEnd, plain.taken.lightEnd);
+        EXPECT_EQ(render.taken.folds, plain.taken.folds);
+        const auto& [first, second] = render.halves->films();
+        for (std::size_t i = 0; i < render.taken.samples.size(); ++i) {
+            std::vector<std::uint32_t> samples = render.taken.samples[i];
+            std::ranges::sort(samples);
+            std::vector<std::uint32_t> expected = plain.taken.samples[i];
+            std::ranges::sort(expected);
+            EXPECT_EQ(samples, expected);
+            const double a = first.pixels[i].count, b = second.pixels[i].count;
+            EXPECT_EQ(a + b, static_cast<double>(samples.size()));
+            EXPECT_LE(std::abs(a - b), kBlockSamples + kBlockSamples / 2) << i;
+            const double sum = a * static_cast<double>(first.pixels[i].mean.r) + b * static_cast<double>(second.pixels[i].mean.r);
+            EXPECT_NEAR(sum / std::accumulate(samples.begin(), samples.end(), 0.0), 1.0, 1e-5) << "each sample once";
+        }
+    }
+    EXPECT_EQ(blocksOfFirstHalf(64, 64, 3), 1U);
+    EXPECT_EQ(blocksOfFirstHalf(96, 32, 1), 0U);
+    EXPECT_EQ(blocksOfFirstHalf(96, 160, 2), 1U);
+    EXPECT_EQ(blocksOfFirstHalf(512, 64, 2), 0U);
+    EXPECT_EQ(blocksOfFirstHalf(64, 512, 2), 2U);
+    EXPECT_EQ(blocksOfFirstHalf(64, 512, 6), 5U);
 }
 
 // The course's rule takes pixels out at the ends of batches.

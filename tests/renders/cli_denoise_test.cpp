@@ -53,6 +53,10 @@ TEST_F(DenoiseTest, TheFilmKeepsItsBits)
         const Film plain = readFilm(folder_ / "plain.exr"), denoised = readFilm(folder_ / "denoised.exr");
         EXPECT_EQ(computeDigest(plain), computeDigest(denoised)) << samples;
     }
+    expectDone({"--adaptive", "neighbours", "--spp", "300", "-o", "plain.exr"});
+    expectDone({"--adaptive", "neighbours", "--spp", "300", "-o", "denoised.exr", "--denoise", "--stats", "a.json"});
+    EXPECT_EQ(computeDigest(readFilm(folder_ / "plain.exr")), computeDigest(readFilm(folder_ / "denoised.exr")));
+    EXPECT_GT(statistics("a.json").at("denoised").at("mse"), 0.0);
 }
 
 TEST_F(DenoiseTest, AddsLayersAndFigures)
@@ -125,7 +129,8 @@ TEST_F(DenoiseTest, FramesThatAreThereKeepTheirDenoisedPicture)
 TEST_F(DenoiseTest, RefusesWhatHasNoHalves)
 {
     expectUsage({"--spp", "63"}, MessageId::OutOfRange, {.place = "--spp", .value = "63", .expected = "64 or more"});
-    expectUsage({"--adaptive", "neighbours"}, MessageId::Conflict, {.place = "--adaptive", .value = "neighbours"});
+    expectUsage({"--adaptive", "course"}, MessageId::Conflict,
+                {.place = "--adaptive", .value = "course", .expected = "--adaptive neighbours or off"});
     expectUsage({"--view", "normal"}, MessageId::Conflict, {.place = "--view", .value = "normal", .expected = "no --denoise"});
     expectUsage({"--rows", "0:8"}, MessageId::Conflict, {.place = "--rows", .value = "0:8"});
     expectUsage({"--denoised"}, MessageId::Requires, {.place = "--denoised"});
@@ -149,10 +154,12 @@ TEST_F(DenoiseTest, RefusesWhatIsNoOpenImageDenoise)
 // Of other samples by the way, and killed at any moment; the denoised picture too.
 TEST_F(DenoiseTest, ResumedItHasTheBitsOfOneRun)
 {
+    std::string adaptive = "off";
     const auto call = [&](const std::string& spp) {
         GlimCall next;
-        next.arguments = {"render", sceneFile("cornell_gems.gltf"), "--size", "48x40", "--denoise", "--resume", "-o", "a.exr", "--spp",
-                          spp};
+        next.arguments = {
+            "render", sceneFile("cornell_gems.gltf"), "--size", "48x40", "--denoise", "--resume", "-o", "a.exr", "--spp", spp, "--adaptive",
+            adaptive};
         next.folder = folder_.path();
         return next;
     };
@@ -160,27 +167,35 @@ TEST_F(DenoiseTest, ResumedItHasTheBitsOfOneRun)
         const Film film = readFilm(folder_ / "a.exr");
         return std::pair(computeDigest(film), *readDenoised(folder_ / "a.exr"));
     };
-    EXPECT_EQ(runGlim(call("400")).exitCode, 0);
-    const auto whole = contents();
-    std::filesystem::remove(folder_ / "a.exr");
+    const auto renderAtOnce = [&] {
+        EXPECT_EQ(runGlim(call("400")).exitCode, 0);
+        const auto whole = contents();
+        std::filesystem::remove(folder_ / "a.exr");
+        return whole;
+    };
+    const auto whole = renderAtOnce();
     for (const char* spp : {"64", "100", "256", "400"}) {
         EXPECT_EQ(runGlim(call(spp)).exitCode, 0);
     }
     EXPECT_TRUE(contents() == whole);
-    std::filesystem::remove(folder_ / "a.exr");
-    int kills = 0;
-    for (std::size_t lines = 1;; ++lines) {
-        GlimCall killed = call("400");
-        killed.arguments.insert(killed.arguments.end(), {"--checkpoint", "0.01s", "--progress", "json"});
-        killed.signalWhen = [lines](const std::string& err) { return countLines(err) > lines; };
-        killed.signal = lines % 2 == 0 ? SIGTERM : SIGKILL;
-        if (runGlim(killed).exitCode == 0) {
-            break;
+    for (const char* sampling : {"off", "neighbours"}) {
+        adaptive = sampling;
+        std::filesystem::remove(folder_ / "a.exr");
+        const auto expected = renderAtOnce();
+        int kills = 0;
+        for (std::size_t lines = 1;; ++lines) {
+            GlimCall killed = call("400");
+            killed.arguments.insert(killed.arguments.end(), {"--checkpoint", "0.01s", "--progress", "json"});
+            killed.signalWhen = [lines](const std::string& err) { return countLines(err) > lines; };
+            killed.signal = lines % 2 == 0 ? SIGTERM : SIGKILL;
+            if (runGlim(killed).exitCode == 0) {
+                break;
+            }
+            ASSERT_LT(++kills, 30);
         }
-        ASSERT_LT(++kills, 30);
+        EXPECT_GT(kills, 0);
+        EXPECT_TRUE(contents() == expected) << sampling;
     }
-    EXPECT_GT(kills, 0);
-    EXPECT_TRUE(contents() == whole);
 }
 
 TEST_F(DenoiseTest, FilmsWithoutHalvesAreNotResumed)

@@ -57,7 +57,8 @@ public:
             if (checkpoint) {
                 apart += checkpoint->page.pixels.empty() ? 0 : 1;
                 ahead += checkpoint->progress.pixelsAhead > 0 ? 1 : 0;
-                choosing += checkpoint->progress.adaptive && checkpoint->progress.adaptive->choosing ? 1 : 0;
+                choosing += isChoosing(checkpoint->progress) ? 1 : 0;
+                second += isChoosing(checkpoint->progress) && checkpoint->progress.adaptive->second ? 1 : 0;
                 writeFilm(file_, film, *checkpoint);
                 EXPECT_TRUE(sameBits(readFilm(file_), film));
             }
@@ -66,7 +67,7 @@ public:
 
     const FilmHalves* halves() const { return renderer_.films().halves(); }
 
-    int pieces = 0, apart = 0, ahead = 0, choosing = 0;
+    int pieces = 0, apart = 0, ahead = 0, choosing = 0, second = 0;
     std::uint32_t end = 0;  // of the samples
 
 private:
@@ -138,6 +139,26 @@ TEST_P(ResumeTest, HalvesHaveTheBitsOfOneRun)
         for (std::size_t i = 0; i < 2; ++i) {
             EXPECT_TRUE(sameBits(pieces.halves()->films()[i], whole[i]));
         }
+    }
+}
+
+// A piece may end within the first and the second half of chosen pixels' samples.
+TEST_P(ResumeTest, HalvesOfAdaptiveRendersHaveTheBitsOfOneRun)
+{
+    RenderSettings settings = inSmallPasses(16, 640);
+    settings.adaptive = Adaptive::Neighbours;
+    settings.schedule = GetParam();
+    const Film plain = Pieces(mixedScene(), settings).renderAtOnce();
+    settings.halves = true;
+    Pieces pieces(mixedScene(), settings);
+    EXPECT_TRUE(sameBits(pieces.renderAtOnce(), plain));
+    const std::array<Film, 2> whole = pieces.halves()->films();
+    expectTheBitsOfOneRun(pieces, 40);
+    EXPECT_GT(pieces.choosing, 2);
+    EXPECT_GT(pieces.second, 0);
+    EXPECT_LT(pieces.second, pieces.choosing);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_TRUE(sameBits(pieces.halves()->films()[i], whole[i]));
     }
 }
 

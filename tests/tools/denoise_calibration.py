@@ -1,21 +1,27 @@
 #!/usr/bin/env python3
-"""denoise_calibration.py PACKAGE [OIDN]: how often the intervals of denoised pictures contain their true errors. By hand: ten minutes.
+"""How often the intervals of denoised pictures contain their true errors. By hand: ten minutes.
 
-PACKAGE is the folder of the built Python package, OIDN a library of Open Image Denoise or its folder. Each of six scenes is rendered with
-many seeds and denoised; a long render stands for the truth, and what it is known to be wrong by is taken into account. 95 % of the intervals
-should hold. tests/denoising.md has the last result."""
+Each of six scenes is rendered with many seeds and denoised; a long render stands for the truth, and what it is known to be wrong by is
+taken into account. 95 % of the intervals should hold. tests/denoising.md has the last result."""
 
+import argparse
 import math
 import os
 import sys
 
-sys.path.insert(0, sys.argv[1])
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("package", help="the folder of the built Python package")
+parser.add_argument("--oidn", help="a library of Open Image Denoise or its folder, to be tried as well")
+parser.add_argument("--adaptive", action="store_true", help="by adaptive sampling, 256 samples on average, instead of 128 of each pixel")
+OPTIONS = parser.parse_args()
+sys.path.insert(0, OPTIONS.package)
 import glim  # noqa: E402
 import numpy as np  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 SCENES = ["cornell", "cornell_gems", "cornell_mirror_glass", "many_lights", "showcase", "textures"]
-SIZE, SAMPLES, REFERENCE, SEEDS = (48, 48), 128, 4096, 60
+SIZE, REFERENCE, SEEDS = (48, 48), 4096, 60
+SAMPLING = {"adaptive": "neighbours", "spp": 256} if OPTIONS.adaptive else {"spp": 128}
 
 
 def true_errors(picture, reference):
@@ -44,8 +50,8 @@ class Calibration:
 
 def main():
     engines = {"own": {}}
-    if len(sys.argv) > 2:
-        engines["OIDN"] = {"oidn": sys.argv[2]}
+    if OPTIONS.oidn:
+        engines["OIDN"] = {"oidn": OPTIONS.oidn}
     held = dict.fromkeys(engines, 0)
     for name in SCENES:
         scene = glim.load(os.path.join(ROOT, "scenes", name + ".gltf"), size=SIZE)
@@ -53,7 +59,7 @@ def main():
         for engine, options in engines.items():
             calibration = Calibration()
             for seed in range(1, SEEDS + 1):
-                film = scene.render(spp=SAMPLES, seed=seed, denoise=True, **options)
+                film = scene.render(**SAMPLING, seed=seed, denoise=True, **options)
                 calibration.add(film, true_errors(film.denoised, reference))
             held[engine] += calibration.inside
             print("| %s | %s | %s |" % (name, engine, calibration), flush=True)
