@@ -214,12 +214,20 @@ DenoisedHalf noisyHalf(const Film& film)
     for (const PixelMoments& pixel : shownPixels(film)) {
         half.noisy.push_back(pixel.mean);
         half.samples.push_back(pixel.count);
+        const glm::vec3 rounding = 1e-5F * pixel.mean, variance = computeVarianceOfMean(pixel);
+        half.background.push_back(pixel.alpha == 0.0F && glm::all(glm::lessThanEqual(variance, rounding * rounding)));
     }
     return half;
 }
 
+// A lamp's rim is as noisy as light that is hard to find, and denoisers spread it over the sky behind.
 DenoisedPicture joinHalves(const glm::uvec2& size, std::array<DenoisedHalf, 2> halves)
 {
+    for (DenoisedHalf& half : halves) {
+        for (std::size_t i = 0; i < half.noisy.size(); ++i) {
+            half.denoised[i] = half.background[i] ? half.noisy[i] : half.denoised[i];
+        }
+    }
     Measurement measurement(size, std::move(halves[0]), std::move(halves[1]));
     measurement.keepNoisyTiles();
     return measurement.picture();

@@ -40,12 +40,14 @@ struct DenoisedPicture {
 struct DenoisedHalf {
     std::vector<glm::vec3> noisy, denoised;  // radiance
     std::vector<std::uint32_t> samples;
+    std::vector<bool> background;  // whether all samples have met nothing but one and the same background
 };
 
 // The radiance and the samples of a half that is still to be denoised.
 DenoisedHalf noisyHalf(const Film& film);
 
-// The mean of both halves, and its error. Where denoising makes a tile worse, it stays noisy.
+// The mean of both halves, and its error. What denoising has put on a half's background is taken away. Where it makes a tile worse, that
+// stays noisy.
 DenoisedPicture joinHalves(const glm::uvec2& size, std::array<DenoisedHalf, 2> halves);
 
 // `film` with the denoised radiance, to be shown and not to be kept: its moments are those of no samples.

@@ -168,6 +168,42 @@ TEST(DenoisedPicture, KeepsNoisyPixelsWhereDenoisingHurts)
     EXPECT_EQ(picture->error.size(), picture->radiance.size());
 }
 
+// Every second pixel shows a black sky, the others a noisy surface. Nothing is put on the sky, of which each sample is known.
+TEST(DenoisedPicture, LeavesTheSkyAsItIs)
+{
+    const auto isSky = [](std::size_t i) { return (i + i / kSide) % 2 == 0; };
+    RenderSettings settings;
+    settings.width = settings.height = kSide;
+    FilmHalves halves(settings);
+    FilmMoments page;
+    page.pixels.resize(kSide * kSide);
+    std::mt19937 random(1);
+    for (std::uint32_t sample = 0; sample < 64;) {
+        const std::uint32_t end = FilmHalves::nextEnd(sample);
+        for (std::size_t i = 0; i < page.pixels.size(); ++i) {
+            PixelMoments block{};
+            block.count = end - sample;
+            block.blocks = 1;
+            block.alpha = isSky(i) ? 0.0F : 1.0F;
+            block.mean = glm::vec3(isSky(i) ? 0.0F : 5.0F + static_cast<float>(kNormal(random)));
+            page.pixels[i] = foldMoments(page.pixels[i], block);
+        }
+        halves.take(page, end, false);
+        sample = end;
+    }
+    const auto picture = denoiseHalves(halves, [&](const Film& film) {
+        std::vector<glm::vec3> result(film.pixels.size(), glm::vec3(5.0F));
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            result[i] = isSky(i) ? glm::vec3(0.01F) : result[i];
+        }
+        return std::optional(result);
+    });
+    EXPECT_EQ(picture->noisyShare, 0.0);
+    for (std::size_t i = 0; i < picture->radiance.size(); ++i) {
+        EXPECT_EQ(picture->radiance[i], glm::vec3(isSky(i) ? 0.0F : 5.0F)) << i;
+    }
+}
+
 TEST(DenoisedPicture, IsNoneIfTheDenoiserWasEnded)
 {
     EXPECT_FALSE(denoiseHalves(halvesOf(3, 0.1, kNormal), [](const Film&) { return std::nullopt; }));
