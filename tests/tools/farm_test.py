@@ -238,6 +238,7 @@ class CommandTest(unittest.TestCase):
                             (["--slurm", "gres=gpu:1"], "the time among them"), (["--workers", "0:4"], "--slurm as well"),
                             (["--slurm", "time=1:00", "--workers", "4:2"], "the fewest and the most"),
                             (["--samples=0:4"], "hands out samples itself"), (["--movie", "m.mp4"], "writes films"),
+                            (["--denoise"], "two halves"), (["--oidn", "."], "two halves"),
                             (["--seed=1", "--seed", "2"], "given twice"),
                             (["stray"], "expected an option"),
                             (["--resume"], "goes on"), (["--camera", "all"], "one picture"), (["--spp", "0"], "whole number"),

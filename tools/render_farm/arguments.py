@@ -21,10 +21,11 @@ STOPS = "the farm hands out whole pages of samples; expected --spp, and --target
 KEEPS = "the farm keeps what is rendered in OUT.exr.farm, and the same command goes on"
 ONE = "the farm renders one picture or --frames"
 ONLY_FILMS = "the farm writes films and their PNGs only"
+MERGES = "the farm merges films, and merged films do not know the two halves of their samples"
 REFUSED = {
     "--samples": SPLITS, "--time": STOPS, "--adaptive": STOPS,
     "--checkpoint": KEEPS, "--resume": KEEPS, "--on-checkpoint": KEEPS, "--turntable": ONE, "--cameras": ONE,
-    "--rows": "the farm cuts the picture itself; expected --bands",
+    "--rows": "the farm cuts the picture itself; expected --bands", "--denoise": MERGES, "--denoised": MERGES, "--oidn": MERGES,
     "--stats": ONLY_FILMS, "--rates": ONLY_FILMS, "--layers": ONLY_FILMS, "--ids": ONLY_FILMS, "--surfaces": ONLY_FILMS,
     "--objects": ONLY_FILMS, "--movie": ONLY_FILMS, "--suspects": ONLY_FILMS, "--replay": ONLY_FILMS,
     "--progress": "the farm has a progress of its own",
