@@ -6,7 +6,6 @@
 #include "host/render/check_memory.hpp"
 #include "host/render/film_camera.hpp"
 #include "host/render/film_identity.hpp"
-#include "host/render/light_path_gain.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/render/parameters.hpp"
 #include "host/text.hpp"
@@ -35,8 +34,7 @@ PictureFrame framePicture(SceneSession& session, const RenderJob& options)
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     const FlatCamera flatCamera = flattenCamera(session.prepared(), camera, aspect, options.lens);
     if (options.caustics == CausticsChoice::Auto) {
-        settings.caustics = choosesLightPaths(session.prepared().flat, flatCamera, settings,
-                                              [&]() -> const Renderer& { return session.beginAhead(flatCamera, settings); });
+        settings.caustics = session.choosesLightPaths(flatCamera, settings);
     }
     return {flatCamera, settings,
             describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),

@@ -1,6 +1,7 @@
 #include "host/job/scene_session.hpp"
 
 #include "host/memory.hpp"
+#include "host/render/light_path_gain.hpp"
 
 #include <algorithm>
 
@@ -81,7 +82,19 @@ void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> ti
     }
     options_.edits = edits;
     time_ = time;
+    lightPaths_.reset();
     isSceneNew_ = true;
+}
+
+bool SceneSession::choosesLightPaths(const FlatCamera& camera, const RenderSettings& settings)
+{
+    const std::string name = fingerprint(0, camera);
+    const glm::uvec2 size(settings.width, settings.height);
+    if (!lightPaths_ || lightPaths_->camera != name || lightPaths_->size != size) {
+        const auto renderer = [&]() -> const Renderer& { return beginAhead(camera, settings); };
+        lightPaths_ = LightPathChoice{name, size, glim::choosesLightPaths(prepared_.flat, camera, settings, renderer)};
+    }
+    return lightPaths_->isLight;
 }
 
 Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)

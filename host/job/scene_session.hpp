@@ -6,6 +6,8 @@
 #include "host/render/prepare_scene.hpp"
 #include "host/render/renderer.hpp"
 
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace glim {
@@ -27,7 +29,10 @@ public:
     // The renderer, at the beginning of a picture. It is a new one if other rows are asked for. A new one for a long picture measures which
     // schedule is the faster one.
     Renderer& begin(const FlatCamera& camera, RenderSettings settings);
-    // The same for rays that are traced before the picture, which begin() then begins. Its statistics have the upload, but not these rays.
+    // Whether light paths find the caustics of a picture by these settings (light_path_gain.hpp). It is measured anew for another camera,
+    // size or scene.
+    bool choosesLightPaths(const FlatCamera& camera, const RenderSettings& settings);
+    // As begin(), for rays that are traced before the picture, which begin() then begins. Its statistics have the upload, not these rays.
     Renderer& beginAhead(const FlatCamera& camera, const RenderSettings& settings);
 
     const PreparedScene& prepared() const { return prepared_; }
@@ -36,6 +41,11 @@ public:
     FilmDenoiser& denoiser() { return denoiser_; }
 
 private:
+    struct LightPathChoice {
+        std::string camera;  // its fingerprint
+        glm::uvec2 size;
+        bool isLight;
+    };
     using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length
 
     static std::vector<Stamp> readStamps(const std::vector<std::filesystem::path>& files);
@@ -49,6 +59,7 @@ private:
     PreparedScene prepared_;
     std::vector<Stamp> stamps_;
     std::optional<Renderer> renderer_;
+    std::optional<LightPathChoice> lightPaths_;  // the last one, of the present scene
     FilmDenoiser denoiser_;
     bool isSceneNew_ = true;  // to the renderer
     bool isAhead_ = false;    // the renderer, of the picture's samples

@@ -321,6 +321,25 @@ class UseTest(PythonCase):
             kept.set(pointer, object())
         self.assertEqual(kept.render(**options).digest, before)
 
+    def test_caustics_are_decided_for_each_camera_and_scene(self):
+        """Light paths find them where that has less noise: a session keeps the decision for one camera of one scene only."""
+        def load():
+            return glim.load(scene("cornell_gems"), size=(16, 16), spp=1)
+
+        def hide(box):
+            for name in ("diamond", "sapphire", "emerald"):
+                box.nodes[name].visible = False
+            return box
+        box = load()
+        for seed in (0, 1):
+            for fov, is_off in ((60, False), (1, True)):
+                film = box.render(seed=seed, fov=fov)
+                self.assertEqual("caustics=off" in film.settings, is_off)
+                self.assertEqual(film.digest, load().render(seed=seed, fov=fov).digest)
+        film = hide(box).render(fov=1)
+        self.assertNotIn("caustics=off", film.settings)
+        self.assertEqual(film.digest, hide(load()).render(fov=1).digest)
+
     def test_have_ids_and_parts(self):
         def parts_of(step):
             with self.assertRaises((glim.InputError, glim.DeviceError)) as caught:
