@@ -214,7 +214,8 @@ DenoisedHalf noisyHalf(const Film& film)
     for (const PixelMoments& pixel : shownPixels(film)) {
         half.noisy.push_back(pixel.mean);
         half.samples.push_back(pixel.count);
-        const glm::vec3 rounding = 1e-5F * pixel.mean, variance = computeVarianceOfMean(pixel);
+        // Means of equal samples differ by rounding: by up to 2^-24 of the mean for each of at most 128 samples of a block.
+        const glm::vec3 rounding = 0x1p-17F * pixel.mean, variance = computeVarianceOfMean(pixel);
         half.background.push_back(pixel.alpha == 0.0F && glm::all(glm::lessThanEqual(variance, rounding * rounding)));
     }
     return half;

@@ -297,7 +297,7 @@ void resolveDenoise(const OptionTable& table, RenderJob& job)
     }
     if (isCourse(settings.adaptive)) {
         refuse(table, "--adaptive", MessageId::Conflict,
-               {"course stops a pixel by its own samples, so that halves of them are not independent, as --denoise needs them; expected ",
+               {"stops a pixel by its own samples, and --denoise needs independent halves of them; expected ",
                 part::expected("--adaptive neighbours or off")});
     }
     const std::uint32_t least = minSamplesForError(settings.sampleBegin), samples = settings.sampleEnd - settings.sampleBegin;

@@ -166,9 +166,6 @@ void SamplePlan::resume(SampleProgress progress, std::uint32_t paths)
         chosenBlocks_ = BlockQueue(adaptive->chosenBegin, std::move(adaptive->chosen), std::move(adaptive->blocksLeft));
         laterBlocks_ = std::move(adaptive->blocksLater);
         second_ = adaptive->second;
-        if (!settings_.halves) {
-            beginSecondHalf();
-        }
         if (adaptive->choosing) {
             startChosenSweep(paths);
         }
@@ -324,20 +321,16 @@ void SamplePlan::allocate(const std::vector<double>& shares, const FilmHalves* h
     if (halves != nullptr) {
         laterBlocks_ = blocks;
         const auto& [first, second] = halves->films();
+        const auto countOf = [](const Film& half, std::size_t i) {
+            return i < half.pixels.size() ? half.pixels[i].count : 0;  // a film from a file may lack a half
+        };
         for (std::size_t i = 0; i < blocks.size(); ++i) {
-            blocks[i] = blocksOfFirstHalf(first.pixels[i].count, second.pixels[i].count, blocks[i]);
+            blocks[i] = blocksOfFirstHalf(countOf(first, i), countOf(second, i), blocks[i]);
             laterBlocks_[i] -= blocks[i];
         }
     }
     chosenBlocks_.add(blocks);
     startChosenSweep(paths);
-}
-
-void SamplePlan::beginSecondHalf()
-{
-    if (!laterBlocks_.empty()) {
-        chosenBlocks_.add(std::exchange(laterBlocks_, {}));
-    }
 }
 
 // Ends the round if no pixel is to have more.
@@ -346,7 +339,7 @@ void SamplePlan::startChosenSweep(std::uint32_t paths)
     auto sweep = chosenBlocks_.take(paths);
     if (!sweep && !laterBlocks_.empty()) {
         tasks_.push_back(PlanTask::TakeFirstHalf);
-        beginSecondHalf();
+        chosenBlocks_.add(std::exchange(laterBlocks_, {}));
         second_ = true;
         sweep = chosenBlocks_.take(paths);
     }

@@ -159,7 +159,6 @@ private:
     bool isBetweenRounds() const { return mean_ == roundEnd_; }
     void endSweep(std::uint32_t paths);
     void startChosenSweep(std::uint32_t paths);
-    void beginSecondHalf();
 
     RenderSettings settings_;
     bool tracesLight_;

@@ -23,30 +23,40 @@ glm::vec3 truthAt(std::size_t i)
 
 using Noise = std::function<double(std::mt19937&)>;  // of mean 0 and variance 1
 
-// 96 samples, 64 and 32 in a half, by noise that has the deviation after 16 samples.
-FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
+// Of pixels whose next samples are of such means: takes the pixel and how many these are.
+FilmHalves simulateHalves(std::uint32_t samples, const std::function<glm::vec3(std::size_t, std::uint32_t)>& meanOf,
+                          const std::function<bool(std::size_t)>& isSky)
 {
-    std::mt19937 random(seed);
     RenderSettings settings;
     settings.width = settings.height = kSide;
     FilmHalves halves(settings);
-    Film page;
+    FilmMoments page;
     page.pixels.resize(kSide * kSide);
-    for (std::uint32_t sample = 0; sample < 96;) {
+    for (std::uint32_t sample = 0; sample < samples;) {
         const std::uint32_t end = FilmHalves::nextEnd(sample);
         for (std::size_t i = 0; i < page.pixels.size(); ++i) {
             PixelMoments block{};
             block.count = end - sample;
             block.blocks = 1;
-            const double error = deviation * std::sqrt(16.0 / block.count) * noise(random);
-            block.mean = truthAt(i) + static_cast<float>(error);  // of light: all channels alike
+            block.alpha = isSky(i) ? 0.0F : 1.0F;
+            block.mean = meanOf(i, block.count);
             page.pixels[i] = foldMoments(page.pixels[i], block);
         }
         halves.take(page, end, false);
         sample = end;
     }
-    halves.take(page, 96, true);
+    halves.take(page, samples, true);
     return halves;
+}
+
+// 96 samples, 64 and 32 in a half, by noise that has the deviation after 16 samples.
+FilmHalves halvesOf(std::uint32_t seed, double deviation, const Noise& noise)
+{
+    std::mt19937 random(seed);
+    const auto meanOf = [&](std::size_t i, std::uint32_t count) {
+        return truthAt(i) + static_cast<float>(deviation * std::sqrt(16.0 / count) * noise(random));  // of light: all channels alike
+    };
+    return simulateHalves(96, meanOf, [](std::size_t) { return false; });
 }
 
 std::vector<glm::vec3> blur(const Film& film, int radius)
@@ -172,26 +182,11 @@ TEST(DenoisedPicture, KeepsNoisyPixelsWhereDenoisingHurts)
 TEST(DenoisedPicture, LeavesTheSkyAsItIs)
 {
     const auto isSky = [](std::size_t i) { return (i + i / kSide) % 2 == 0; };
-    RenderSettings settings;
-    settings.width = settings.height = kSide;
-    FilmHalves halves(settings);
-    FilmMoments page;
-    page.pixels.resize(kSide * kSide);
     std::mt19937 random(1);
-    for (std::uint32_t sample = 0; sample < 64;) {
-        const std::uint32_t end = FilmHalves::nextEnd(sample);
-        for (std::size_t i = 0; i < page.pixels.size(); ++i) {
-            PixelMoments block{};
-            block.count = end - sample;
-            block.blocks = 1;
-            block.alpha = isSky(i) ? 0.0F : 1.0F;
-            block.mean = glm::vec3(isSky(i) ? 0.0F : 5.0F + static_cast<float>(kNormal(random)));
-            page.pixels[i] = foldMoments(page.pixels[i], block);
-        }
-        halves.take(page, end, false);
-        sample = end;
-    }
-    const auto picture = denoiseHalves(halves, [&](const Film& film) {
+    const auto meanOf = [&](std::size_t i, std::uint32_t) {
+        return glm::vec3(isSky(i) ? 0.0F : 5.0F + static_cast<float>(kNormal(random)));
+    };
+    const auto picture = denoiseHalves(simulateHalves(64, meanOf, isSky), [&](const Film& film) {
         std::vector<glm::vec3> result(film.pixels.size(), glm::vec3(5.0F));
         for (std::size_t i = 0; i < result.size(); ++i) {
             result[i] = isSky(i) ? glm::vec3(0.01F) : result[i];

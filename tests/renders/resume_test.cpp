@@ -234,6 +234,35 @@ TEST(ResumeFilmTest, AnyFilmThatEndsWithAPageGoesOn)
     }
 }
 
+// One with halves goes on without them, wherever it stopped: also before the chosen pixels' blocks of the second half.
+TEST(ResumeFilmTest, HalvesAreNoHindrance)
+{
+    RenderSettings settings = inSmallPasses(16, 256);
+    settings.adaptive = Adaptive::Neighbours;
+    settings.schedule = Schedule::Persistent;
+    const Film plain = renderScene(mixedScene(), settings);
+    RenderSettings halved = settings;
+    halved.halves = true;
+    const FlatScene flat = flattened(mixedScene());
+    const FlatCamera camera = flattenCamera(mixedScene().cameras.front(), 1.0F);
+    int later = 0;
+    for (int passes = 60; passes < 400; passes += 20) {
+        Renderer first(testDevice(), flat, camera, halved);
+        std::optional<Checkpoint> checkpoint;
+        int left = passes;
+        const auto observe = [&](const RenderProgress& now) { return (left -= now.betweenPasses ? 1 : 0) > 0; };
+        first.render(observe, nullptr, [&] { checkpoint = first.checkpoint(); });
+        if (!checkpoint || first.plan().isDone()) {
+            continue;
+        }
+        later += isChoosing(checkpoint->progress) && !checkpoint->progress.adaptive->blocksLater.empty() ? 1 : 0;
+        Renderer second(testDevice(), flat, camera, settings);
+        second.resume(*std::move(checkpoint));
+        EXPECT_TRUE(sameBits(second.render([](const RenderProgress&) { return true; }), plain)) << passes;
+    }
+    EXPECT_GT(later, 0);
+}
+
 // Nor does one for which fewer samples are asked than some pixels have, or one of another way to sample.
 TEST(ResumeFilmTest, CheckpointsBeyondTheEndDoNot)
 {
