@@ -16,6 +16,9 @@ set(onlyInCi
     Catcher.SoItIsWithReflections
     Catcher.AlphaHasTheErrorItStates
     CommandLineCatcherTest.FilmsResumeAndMergeToTheBitsOfOneRun
+    GuideRenderTest.HasTheSameMeanAndLessNoiseBehindADoor
+    GuideRenderTest.AWrongGuideChangesNoMean
+    CommandLineGuidingTest.KilledItGoesOnWithTheSameBits
     Lights/MirroredLightTest.*
     Places/DirectLightTest.*
     DirectLightTest.T3ASphereFromWithin

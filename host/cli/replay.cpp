@@ -4,6 +4,7 @@
 #include "host/flatten/camera_options.hpp"
 #include "host/job/output_file.hpp"
 #include "host/render/describe_primitive.hpp"
+#include "host/render/learn_guide.hpp"
 #include "host/render/light_path_gain.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/replay.hpp"
@@ -157,8 +158,9 @@ void printSampledLight(const ReplayReport& report, const SampledLight& each)
     }
     std::cout << " towards " << toText(each.ray.direction);
     if (!each.hemisphere) {
-        std::cout << ", pdf " << (note.lightPdf > 0.0F ? exactText(note.lightPdf) + " per sr" : "0 (delta light)") << " against the BSDF's "
-                  << exactText(note.bsdfPdf) << ", MIS weight " << exactText(note.misWeightOfLight);
+        std::cout << ", pdf " << (note.lightPdf > 0.0F ? exactText(note.lightPdf) + " per sr" : "0 (delta light)") << " against "
+                  << (report.settings.guide ? "that of BSDF and guide, " : "the BSDF's ") << exactText(note.bsdfPdf) << ", MIS weight "
+                  << exactText(note.misWeightOfLight);
     }
     const bool lost = each.added.radiance == glm::vec3(0.0F);
     std::cout << ", "
@@ -324,6 +326,9 @@ void runReplay(const RenderJob& options)
     const FlatCamera flatCamera = flattenCamera(prepared, camera, aspect, options.lens);
     if (options.caustics == CausticsChoice::Auto) {
         settings.caustics = choosesLightPaths(device, prepared.flat, flatCamera, settings);
+    }
+    if (options.guiding == GuidingChoice::On) {
+        settings.guide = learnGuide(device, prepared.flat, flatCamera, settings);
     }
     Replay replay(device, prepared.flat, flatCamera, settings);
     const SamplePlace& place = *options.replay;

@@ -16,10 +16,10 @@ DeviceClass classify(VkPhysicalDeviceType type, VkDriverId driver)
 const ClassRules& rulesOf(DeviceClass deviceClass)
 {
     static constexpr ClassRules kRules[] = {
-        {.persistent = true, .pathCapacity = 1U << 18, .pathsPerThread = 16, .sharedStack = false},
-        {.persistent = false, .pathCapacity = 1U << 18, .pathsPerThread = 16, .sharedStack = false},
-        {.persistent = false, .pathCapacity = 1U << 20, .pathsPerThread = 2, .sharedStack = true},
-        {.persistent = false, .pathCapacity = 1U << 24, .pathsPerThread = 1, .sharedStack = true},
+        {.persistent = true, .compilesPaths = true, .pathCapacity = 1U << 18, .pathsPerThread = 16, .sharedStack = false},
+        {.persistent = false, .compilesPaths = false, .pathCapacity = 1U << 18, .pathsPerThread = 16, .sharedStack = false},
+        {.persistent = false, .compilesPaths = true, .pathCapacity = 1U << 20, .pathsPerThread = 2, .sharedStack = true},
+        {.persistent = false, .compilesPaths = true, .pathCapacity = 1U << 24, .pathsPerThread = 1, .sharedStack = true},
     };
     return kRules[static_cast<std::size_t>(deviceClass)];
 }

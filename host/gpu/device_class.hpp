@@ -20,6 +20,8 @@ struct ClassRules {
     // llvmpipe is faster with the persistent one where little is traced (tests/bench/README.md), an H100 with the wavefront
     // (tests/bench/GPU.md). SwiftShader takes more than ten minutes to compile trace_paths.
     bool persistent;
+    // The driver compiles trace_paths and learn_guide in seconds.
+    bool compilesPaths;
     // Paths in flight, unless the device has less room. An H100 holds 270,336 threads, and was 6.6 to 7 times as fast with 2^22 as with
     // 2^18; in the Cornell box it was 1.11 times as fast with 2^23 as with 2^22, and 1.04 times with 2^24 as with 2^23. A CPU needs only
     // what fills its vectors.

@@ -138,6 +138,11 @@ void addCaustics(OptionTable& table, CausticsChoice& caustics)
             caustics);
 }
 
+void addGuiding(OptionTable& table, GuidingChoice& guiding)
+{
+    addEnum(table, "--guiding", "G", "Path guiding, learned before the picture: on or off [off]", {"off", "on"}, guiding);
+}
+
 void addCourseEstimators(OptionTable& table, RenderSettings& settings)
 {
     table.beginGroup("Course estimators (Berkeley CS 184)");

@@ -16,6 +16,7 @@
 namespace glim {
 
 enum class CausticsChoice { Off, On, Auto };
+enum class GuidingChoice { Off, On };
 
 struct PictureOptions {
     std::filesystem::path scene;
@@ -46,7 +47,8 @@ struct PictureOptions {
     Lens lens;
     SplitRule split = SplitRule::Sah;
     CausticsChoice caustics = CausticsChoice::Auto;
-    RenderSettings settings;  // all but width, height and what `caustics` decides
+    GuidingChoice guiding = GuidingChoice::Off;
+    RenderSettings settings;  // all but width, height and what `caustics` and `guiding` decide
 };
 
 // Each adds options to the help's current group. They write into `options` or `settings`, which must outlive the table.
@@ -64,6 +66,7 @@ void addCrop(OptionTable& table, PictureOptions& options);
 void addFocus(OptionTable& table, std::optional<glm::uvec2>& pixel);
 void addLightTransport(OptionTable& table, RenderSettings& settings);
 void addCaustics(OptionTable& table, CausticsChoice& caustics);
+void addGuiding(OptionTable& table, GuidingChoice& guiding);
 void addCourseEstimators(OptionTable& table, RenderSettings& settings);
 void addDevice(OptionTable& table, PictureOptions& options);
 

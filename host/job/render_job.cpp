@@ -111,6 +111,7 @@ void addJobOptions(OptionTable& table, RenderJob& options)
     addSampler(table, options.settings);
     addLightTransport(table, options.settings);
     addCaustics(table, options.caustics);
+    addGuiding(table, options.guiding);
     addCourseEstimators(table, options.settings);
     addCourseRule(table, options.settings);
     addDevice(table, options);

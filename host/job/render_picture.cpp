@@ -36,6 +36,9 @@ PictureFrame framePicture(SceneSession& session, const RenderJob& options)
     if (options.caustics == CausticsChoice::Auto) {
         settings.caustics = session.choosesLightPaths(flatCamera, settings);
     }
+    if (options.guiding == GuidingChoice::On) {
+        settings.guide = session.learnGuide(flatCamera, settings);
+    }
     return {flatCamera, settings,
             describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),
             camera.projection.crop};

@@ -153,6 +153,13 @@ Json suspectsOf(const RenderReport& report)
     return list;
 }
 
+Json guideOf(const RenderReport& report)
+{
+    const auto& guide = report.guide;
+    return guide ? Json{{"digest", guide->digest}, {"cells", guide->cells}, {"paths", guide->paths}, {"seconds", guide->seconds}}
+                 : Json(nullptr);
+}
+
 std::uint32_t lightPathsOf(const Film& film) { return lightPathCount(film.width, film.rowsAbove + film.height + film.rowsBelow); }
 
 Json cropOf(const Film& film)
@@ -212,6 +219,7 @@ Json statisticsOf(const RenderReport& report)
             {"scatteringCaps", s.scatteringCaps},
             {"cutThroughput", s.cutThroughput},
             {"lightPathsPerSample", report.film.splats.empty() ? Json(nullptr) : Json(lightPathsOf(report.film))},
+            {"guide", guideOf(report)},
             {"look", lookOf(report)},
             {"clampIndirect", clampingOf(report.film, report.options)},
             {"estimate", report.error ? describeEstimate(*report.error) : Json(nullptr)},
@@ -238,6 +246,14 @@ void warnOfExposure(const RenderReport& report)
 std::string causticsText(const RenderReport& report)
 {
     return report.film.splats.empty() ? "" : format(", caustics by %u light paths a sample", lightPathsOf(report.film));
+}
+
+std::string guideText(const RenderReport& report)
+{
+    const auto& guide = report.guide;
+    return guide ? format(", guided by %u cells that %.3g paths made in %.3g s", guide->cells, static_cast<double>(guide->paths),
+                          guide->seconds)
+                 : "";
 }
 
 std::string rangeText(const RenderReport& report)
@@ -363,8 +379,8 @@ void printSummary(const RenderReport& report, std::ostream& out)
         << format(" in %.2f s (%.3g Msamples/s, %.3g Mrays/s; first pass after %.2f s)", s.renderSeconds,
                   1e-6 * perSecond(s.samples, s.renderSeconds), 1e-6 * perSecond(s.cameraAndBounceRays + s.shadowRays, s.renderSeconds),
                   s.firstPassSeconds)
-        << causticsText(report) << savingText(report) << qualityText(report) << ", on " << report.device.name << " (" << report.device.kind
-        << ")\n";
+        << causticsText(report) << guideText(report) << savingText(report) << qualityText(report) << ", on " << report.device.name << " ("
+        << report.device.kind << ")\n";
     printSuspects(report, out);
 }
 

@@ -27,6 +27,7 @@ struct RenderReport {
     std::vector<Suspect> suspects;
     std::optional<ControlBias> bias;     // of adaptive renders
     std::optional<Denoising> denoising;  // of --denoise
+    std::shared_ptr<const Guide> guide;  // null: paths were not guided
 };
 
 // Of what is wrong or missing in a picture, as far as it is known.

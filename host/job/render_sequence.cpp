@@ -419,7 +419,8 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
                               idSeconds,
                               std::move(suspects),
                               bias,
-                              denoising};
+                              denoising,
+                              frame.settings.guide};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }

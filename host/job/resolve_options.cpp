@@ -51,8 +51,8 @@ bool hasOneLightSample(const PictureOptions& picture)
 }
 
 const Rule<PictureOptions> kPictureRules[] = {
-    {{"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics", "--adaptive", "--rates",
-      "--suspects", "--target-rmse", "--target-relmse", "--tone"},
+    {{"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics", "--guiding", "--adaptive",
+      "--rates", "--suspects", "--target-rmse", "--target-relmse", "--tone"},
      isOfAov,
      MessageId::Conflict,
      "has no effect with --view {--view}"},
@@ -110,6 +110,7 @@ const Rule<RenderJob> kRenderRules[] = {
     {{"--focus"}, isReplay, MessageId::Conflict, "expected ", "--focal-distance with the number that the render has printed"},
     {{"--shutter"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--shutter"}, isOfCourse, MessageId::Conflict, "the course's estimators know no time; expected ", "none of them"},
+    {{"--guiding"}, isOfCourse, MessageId::Conflict, "the course's estimators have no guide; expected ", "none of them"},
     {{"--flow"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--movie"}, isOnePicture, MessageId::Requires, "is of several pictures; expected ", "--turntable, --frames or --cameras"},
     {{"--movie"}, keepsNoPicture, MessageId::Requires, "is made of pictures, which are kept; expected ", "--image picture.####.png"},

@@ -1,6 +1,7 @@
 #include "host/job/scene_session.hpp"
 
 #include "host/memory.hpp"
+#include "host/render/learn_guide.hpp"
 #include "host/render/light_path_gain.hpp"
 
 #include <algorithm>
@@ -83,6 +84,7 @@ void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> ti
     options_.edits = edits;
     time_ = time;
     lightPaths_.reset();
+    guide_.reset();
     isSceneNew_ = true;
 }
 
@@ -97,6 +99,16 @@ bool SceneSession::choosesLightPaths(const FlatCamera& camera, const RenderSetti
     return lightPaths_->isLight;
 }
 
+std::shared_ptr<const Guide> SceneSession::learnGuide(const FlatCamera& camera, const RenderSettings& settings)
+{
+    const std::string name = fingerprint(0, camera);
+    const glm::uvec2 size(settings.width, settings.height);
+    if (!guide_ || guide_->camera != name || guide_->size != size) {
+        guide_ = LearnedGuide{name, size, glim::learnGuide(beginAhead(camera, settings), prepared_.flat, camera, settings)};
+    }
+    return guide_->guide;
+}
+
 Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
 {
     if (use_ == SceneUse::Once) {  // the device gets the flat scene
@@ -105,7 +117,8 @@ Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)
         prepared_.bvh = {.depth = prepared_.bvh.depth, .cost = prepared_.bvh.cost};
         returnFreedMemory();
     }
-    if (!renderer_ || renderer_->settings().rows != settings.rows || renderer_->settings().caustics != settings.caustics) {
+    if (!renderer_ || renderer_->settings().rows != settings.rows || renderer_->settings().caustics != settings.caustics ||
+        renderer_->settings().guide != settings.guide) {
         renderer_.reset();  // so that no two are on the device
         renderer_.emplace(device_, prepared_.flat, camera, settings);
     } else if (isSceneNew_) {
@@ -129,6 +142,7 @@ Renderer& SceneSession::beginAhead(const FlatCamera& camera, const RenderSetting
 {
     RenderSettings ahead = settings;
     ahead.caustics = renderer_ ? renderer_->settings().caustics : settings.caustics;  // no new renderer for this
+    ahead.guide = renderer_ ? renderer_->settings().guide : settings.guide;
     begin(camera, ahead);
     isAhead_ = true;
     return *renderer_;

@@ -32,6 +32,8 @@ public:
     // Whether light paths find the caustics of a picture by these settings (light_path_gain.hpp). It is measured anew for another camera,
     // size or scene.
     bool choosesLightPaths(const FlatCamera& camera, const RenderSettings& settings);
+    // What the paths of a picture by these settings are guided by. It is learned anew for another camera, size or scene.
+    std::shared_ptr<const Guide> learnGuide(const FlatCamera& camera, const RenderSettings& settings);
     // As begin(), for rays that are traced before the picture, which begin() then begins. Its statistics have the upload, not these rays.
     Renderer& beginAhead(const FlatCamera& camera, const RenderSettings& settings);
 
@@ -45,6 +47,11 @@ private:
         std::string camera;  // its fingerprint
         glm::uvec2 size;
         bool isLight;
+    };
+    struct LearnedGuide {
+        std::string camera;
+        glm::uvec2 size;
+        std::shared_ptr<const Guide> guide;
     };
     using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length
 
@@ -60,6 +67,7 @@ private:
     std::vector<Stamp> stamps_;
     std::optional<Renderer> renderer_;
     std::optional<LightPathChoice> lightPaths_;  // the last one, of the present scene
+    std::optional<LearnedGuide> guide_;          // the same
     FilmDenoiser denoiser_;
     bool isSceneNew_ = true;  // to the renderer
     bool isAhead_ = false;    // the renderer, of the picture's samples

@@ -58,6 +58,7 @@ std::vector<EmbeddedShader> filmKernels()
     return {kernels::generate_rays,
             kernels::accumulate,
             kernels::trace_paths,
+            kernels::learn_guide,
             kernels::trace_closest,
             kernels::shade_surface,
             kernels::trace_shadow,

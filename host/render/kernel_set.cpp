@@ -63,6 +63,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecAov] = static_cast<std::uint32_t>(settings.aov);
     constants[kSpecSuspects] = settings.suspects > 0;
     constants[kSpecNotes] = settings.notes;
+    constants[kSpecGuided] = settings.guide || settings.learns;
     constants[kSpecPathsPerThread] = rulesOf(device.deviceClass).pathsPerThread;
     constexpr std::size_t kSharedBytes = 16384;  // that every device has
     const std::size_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;
@@ -95,6 +96,8 @@ KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const F
             compile(course.sampleHemisphere, kernels::course_sample_hemisphere, ofCourse);
             compile(course.traceHemisphere, kernels::course_trace_hemisphere, ofCourse);
         }
+    } else if (settings.learns) {
+        compile(learnGuide, kernels::learn_guide, production);
     } else if (schedule == Schedule::Persistent) {
         compile(tracePaths, kernels::trace_paths, production);
     } else {
@@ -102,7 +105,7 @@ KernelSet::KernelSet(const KernelLayout& layout, const FlatScene& scene, const F
         compile(traceClosest, kernels::trace_closest, production);
         compile(traceShadow, kernels::trace_shadow, production);
     }
-    if (tracesLight(scene, settings)) {
+    if (tracesLight(scene, settings) && !settings.learns) {
         compile(traceLightPaths, kernels::trace_light_paths, production);
         compile(addSplats, kernels::add_splats, production);
     }
@@ -124,8 +127,8 @@ std::vector<const Kernel*> KernelSet::all() const
 {
     std::vector<const Kernel*> kernels;
     for (const std::optional<Kernel>* kernel :
-         {&generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &traceLightPaths, &addSplats, &accumulate, &showAov,
-          &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
+         {&generateRays, &traceClosest, &shadeSurface, &traceShadow, &tracePaths, &learnGuide, &traceLightPaths, &addSplats, &accumulate,
+          &showAov, &course.traceClosest, &course.sampleLights, &course.traceShadow, &course.bounce, &course.sampleHemisphere,
           &course.traceHemisphere, &course.addLuminance, &course.choosePixels}) {
         if (*kernel) {
             kernels.push_back(&**kernel);

@@ -33,11 +33,14 @@ struct KernelSet {
               Schedule schedule);
 
     std::vector<const Kernel*> all() const;
+    // The kernel that traces paths to their end, if there is one.
+    const std::optional<Kernel>& ofPaths() const { return learnGuide ? learnGuide : tracePaths; }
 
     Specialization specialization;  // of the production kernels; that of the course's follows from it and the settings
     std::optional<Kernel> generateRays, accumulate;
     std::optional<Kernel> traceClosest, shadeSurface, traceShadow;  // of the wavefront
     std::optional<Kernel> tracePaths;                               // of the persistent schedule
+    std::optional<Kernel> learnGuide;                               // in place of these
     std::optional<Kernel> traceLightPaths, addSplats;               // of caustics
     std::optional<Kernel> showAov;                                  // of AOVs other than radiance
     CourseKernels course;

@@ -187,8 +187,8 @@ void PassTracer::recordEnd(Recording& recording, const Tile& tile, const Pass& p
 void PassTracer::recordRound(Recording& recording, const Bindings& bindings, const Pass& pass) const
 {
     const Buffer& rounds = resources_.paths().rounds();
-    if (kernels().tracePaths) {
-        recording.dispatchIndirect(*kernels().tracePaths, bindings, pass, rounds, groupsOfPaths(pass.round));
+    if (kernels().ofPaths()) {
+        recording.dispatchIndirect(*kernels().ofPaths(), bindings, pass, rounds, groupsOfPaths(pass.round));
         return;
     }
     if (usesCourseEstimators(resources_.settings)) {

@@ -69,7 +69,7 @@ private:
     PassSeconds secondsOf(const Recording& recording) const;
     std::uint32_t portion() const;
     std::uint32_t pathsPerThread() const { return rulesOf(resources_.device.description().deviceClass).pathsPerThread; }
-    bool isPersistent() const { return kernels().tracePaths.has_value(); }
+    bool isPersistent() const { return kernels().ofPaths().has_value(); }
     std::uint32_t lastBounce() const { return isPersistent() || resources_.scatters ? ~0U : pathLengths(resources_.settings).maxBounces; }
     const KernelSet& kernels() const { return resources_.kernels(); }
 

@@ -61,6 +61,8 @@ std::vector<BindingSlot> kernelSlots()
     slots.push_back({kBindCatchers, BufferKind::Storage});
     slots.push_back({kBindGroupLight, BufferKind::Storage});
     slots.push_back({kBindGroupSums, BufferKind::Storage});
+    slots.push_back({kBindGuide, BufferKind::Texel});
+    slots.push_back({kBindGuideRecords, BufferKind::Storage});
     slots.push_back({kBindCourseParameters, BufferKind::Storage});
     return slots;
 }

@@ -2,6 +2,7 @@
 
 #include "host/clock.hpp"
 #include "host/error.hpp"
+#include "host/render/build_guide.hpp"
 #include "host/render/check_infinities.hpp"
 #include "shaders/shared/bindings.h"
 
@@ -30,8 +31,11 @@ namespace {
 bool hasSameKernels(const RenderResources& other, const FlatScene& scene, const RenderSettings& asked)
 {
     return other.schedule == chooseSchedule(asked, other.device.description(), scene.features) && other.settings.course == asked.course &&
-           isCourse(other.settings.adaptive) == isCourse(asked.adaptive);
+           isCourse(other.settings.adaptive) == isCourse(asked.adaptive) && other.settings.learns == asked.learns;
 }
+
+// At once, of those that learn: what a tenth of the least storage buffer that Vulkan allows holds.
+constexpr std::uint32_t kRecordedPaths = 65536;
 
 }  // namespace
 
@@ -44,6 +48,7 @@ RenderResources::RenderResources(Device& of, std::shared_ptr<SharedResources> re
       scatters((scene.features & kFeatureScattering) != 0 && !usesCourseEstimators(asked)),
       shared(std::move(resources)),
       parameters(of, scene, camera, asked),
+      guide(std::make_unique<GuideBuffers>(of, asked.guide ? *asked.guide : emptyGuide(), asked.learns ? kRecordedPaths : 0)),
       course(of, scene, asked),
       compiled(kernels && serves(kernels->set.specialization, specialize(scene, camera, asked, of.description())) ? std::move(kernels)
                                                                                                                   : compile(scene, camera))
@@ -93,7 +98,10 @@ void RenderResources::clearStatistics()
 BufferMap RenderResources::constants() const
 {
     BufferMap constants = shared->scene.buffers();
-    constants.insert({{kBindParameters, &parameters.buffer()}, {kBindCourseParameters, &course.parameters()}});
+    constants.insert({{kBindParameters, &parameters.buffer()},
+                      {kBindCourseParameters, &course.parameters()},
+                      {kBindGuide, &guide->texels()},
+                      {kBindGuideRecords, &guide->records()}});
     return constants;
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/render/course.hpp"
 #include "host/render/device_scene.hpp"
+#include "host/render/guide_buffers.hpp"
 #include "host/render/kernel_set.hpp"
 #include "host/render/parameters.hpp"
 #include "host/render/path_buffers.hpp"
@@ -53,6 +54,8 @@ struct RenderResources {
     // Takes other kernels if the present ones do not serve this camera, and compiles them if need be: a camera close to large triangles
     // needs kFeatureLargeTriangles. The kernels before stay for cameras that come back.
     void adapt(const FlatScene& scene, const FlatCamera& camera);
+    // What paths are guided by from now on. Tiles made before are of no use afterwards.
+    void setGuide(const Guide& of) { guide->set(device, of); }
     // Counters on the device too.
     void clearStatistics();
 
@@ -72,6 +75,7 @@ struct RenderResources {
     const bool scatters;  // some volume does, and rounds are no bounces: walks take several
     const std::shared_ptr<SharedResources> shared;
     DeviceParameters parameters;
+    const std::unique_ptr<GuideBuffers> guide;
     const CourseEstimators course;
     double compileSeconds = 0.0;
     std::shared_ptr<const CompiledKernels> compiled, spare;

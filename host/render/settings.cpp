@@ -48,6 +48,9 @@ std::string describeSettings(const RenderSettings& settings)
     if (!settings.caustics) {
         text << " caustics=off";
     }
+    if (settings.guide) {
+        text << " guide=" << settings.guide->digest;
+    }
     if (settings.catcher) {
         text << " catcher=" << (settings.catcherReflections ? "on" : "shadows");
     }

@@ -1,10 +1,12 @@
 // What a render is asked for.
 #pragma once
 
+#include "host/render/guide.hpp"
 #include "shaders/shared/limits.h"
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -91,7 +93,8 @@ struct RenderSettings {
     float clampIndirect = std::numeric_limits<float>::infinity();
     bool caustics = true;  // by light paths, in scenes that need it (tracesLight)
     CourseSettings course;
-    std::optional<double> seconds;  // stop sampling after this long
+    std::shared_ptr<const Guide> guide;  // of paths; null: they are not guided
+    std::optional<double> seconds;       // stop sampling after this long
 
     // What is recorded besides the picture. This changes no bit of it.
     std::uint32_t suspects = 0;            // how many of the brightest samples to list; each pixel keeps its own (suspects.hpp)
@@ -102,6 +105,7 @@ struct RenderSettings {
     bool halvesLate = false;               // the halves begin when Renderer::keepHalves() is called
     bool comparesPaths = false;            // splats count what camera paths would bring (light_path_gain.hpp), in place of clamped light
     bool notes = false;                    // kernels record what happens to the only path of a pass (replay.hpp)
+    bool learns = false;                   // paths write down where light comes from (learn_guide.hpp), in place of a film
 
     // How the work is cut: these change no bit of the picture.
     Schedule schedule = Schedule::Auto;

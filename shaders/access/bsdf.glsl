@@ -179,16 +179,12 @@ struct BsdfPair {
     BsdfSample next;
 };
 
-// evalBsdf and sampleBsdf at once: in a loop, for one copy of the code of evalPrincipled.
-BsdfPair evalAndSampleBsdf(Bsdf bsdf, vec3 wo, vec3 lightWi, vec2 u, float uLobe)
+// Evaluates the BSDF towards a light and at a sample, `local` in the shading frame, which gets its weight unless it has it: in a loop, for
+// one copy of the code of evalPrincipled.
+BsdfPair evalBsdfTwice(Bsdf bsdf, vec3 wo, vec3 lightWi, BsdfSample next, vec3 local)
 {
-    vec3 local;
     BsdfPair pair;
-    pair.next = sampleUnweighted(bsdf, wo, u, uLobe, local);
-    if (!hasFeature(kFeaturePrincipled)) {
-        pair.light = evalBsdf(bsdf, wo, lightWi);
-        return pair;
-    }
+    pair.next = next;
     bool ofNext = false;
     do {
         vec3 wi = ofNext ? pair.next.wi : lightWi;
@@ -201,6 +197,17 @@ BsdfPair evalAndSampleBsdf(Bsdf bsdf, vec3 wo, vec3 lightWi, vec2 u, float uLobe
         ofNext = !ofNext;
     } while (ofNext);
     return pair;
+}
+
+// evalBsdf and sampleBsdf at once.
+BsdfPair evalAndSampleBsdf(Bsdf bsdf, vec3 wo, vec3 lightWi, vec2 u, float uLobe)
+{
+    vec3 local;
+    BsdfSample next = sampleUnweighted(bsdf, wo, u, uLobe, local);
+    if (!hasFeature(kFeaturePrincipled)) {
+        return BsdfPair(evalBsdf(bsdf, wo, lightWi), next);
+    }
+    return evalBsdfTwice(bsdf, wo, lightWi, next, local);
 }
 
 // Which lobe sampleBsdf chooses: kLambert, kMirror or kDielectric, or kPrincipled + kLobeInterface ...

@@ -6,10 +6,22 @@
 
 #include "direct_light.glsl"
 #include "first_hit.glsl"
+#include "guided_bsdf.glsl"
 #include "lib/mis.glsl"
 #include "lib/roulette.glsl"
 #include "media.glsl"
 #include "next_ray.glsl"
+
+// A lobe this narrow, per steradian, is for the guide what a mirror is: light that comes by it belongs to the surface before.
+const float kNarrowPdf = 16.0;
+
+// What learn_guide wants to know of a vertex.
+struct LearnedVertex {
+    vec3 point, normal;
+    vec3 throughput;  // of what the vertex sends out; 0: the path has ended on arrival
+    vec3 known;       // light that the guide expects it to send out, besides that of light samples
+    bool isNarrow;    // what it sends out comes from one direction, as that of a mirror
+};
 
 struct VertexResult {
     vec3 emitted;         // emission that the ray itself has hit, times throughput and MIS weight
@@ -21,6 +33,7 @@ struct VertexResult {
     bool hasNextRay;
     PathRay ray;          // the next one
     PathState state;      // and its state
+    LearnedVertex learned;
 };
 
 // The MIS weight of light that a ray has hit, if light sampling has the density lightPdf for it. It is 1 for camera rays and after delta
@@ -52,9 +65,24 @@ float misWeightOfSample(float lightPdf, float bsdfPdf)
     return lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
 }
 
+// A guided path meets roulette where it arrives.
 float computeContinuation(BsdfSample s, vec3 throughput, float etaScale, uint bounce)
 {
-    return continuationProbability(throughput, etaScale, bounce);
+    return kGuided ? 1.0 : continuationProbability(throughput, etaScale, bounce);
+}
+
+// Roulette of a guided path, by the light that it is to bring: throughput times the radiance that is known of the surface it has met, over
+// that of the first one (Vorba and Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation", 2016), which
+// etaScale holds. False if the path ends.
+bool survivesArrival(Guide guide, float u, inout PathState state)
+{
+    if (state.bounce == 0u) {
+        state.etaScale /= guide.radiance;
+        return true;
+    }
+    float q = max(kLeastGuidedContinuation, continuationProbability(state.throughput * guide.radiance, state.etaScale, kRouletteBounce));
+    state.throughput /= q;
+    return u < q;
 }
 
 LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce, out uint group)
@@ -105,19 +133,37 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
         }
     }
     result.firstHit = makeFirstHit(si, material.data, wo);
-    bool samples = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf);
+    BounceNumbers u = sampleBounceNumbers(id, state.bounce);
+    Guide guide = kNoGuide;
+    bool survives = true;
+    if (kGuided) {
+        if (hasNonDelta(bsdf)) {
+            guide = fetchGuide(si.p, bsdf.frame.z);
+        }
+        result.learned = LearnedVertex(si.p, bsdf.frame.z, vec3(0.0), state.throughput * guide.reflected, false);
+        survives = survivesArrival(guide, u.roulette, state);
+        result.learned.throughput = survives ? state.throughput : vec3(0.0);
+    }
+    bool samples = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf) && survives;
     LightSample light = kNoLight;
     if (samples) {
         light = sampleDirectLight(id, si, bsdf, state.bounce, result.shadowGroup);
     }
-    BounceNumbers u = sampleBounceNumbers(id, state.bounce);
-    BsdfPair pair = evalAndSampleBsdf(bsdf, wo, light.wi, u.direction, u.lobe);
+    BsdfPair pair;
+    float bsdfPdf;  // of the next direction
+    if (kGuided && guide.share > 0.0) {
+        pair = evalAndSampleGuided(bsdf, guide, wo, light.wi, u.direction, u.lobe, bsdfPdf);
+    } else {
+        pair = evalAndSampleBsdf(bsdf, wo, light.wi, u.direction, u.lobe);
+        bsdfPdf = pair.next.pdf;
+    }
     result.hasShadowRay = samples && makeShadowRay(si, light, pair.light, state, result.shadowRay);
     if (hasFeature(kFeatureMedia) && result.hasShadowRay) {
         result.shadowRay.contribution *= mediaTransmittance(ray.media, si, bsdf.medium, result.shadowRay);
     }
     result.state = state;
-    result.hasNextRay = state.bounce < render.maxBounces && continuePath(pair.next, u, si, bsdf, ray.media, result.ray, result.state);
+    result.hasNextRay = survives && state.bounce < render.maxBounces && continuePath(pair.next, u, si, bsdf, ray.media, result.ray, result.state);
+    result.learned.isNarrow = (pair.next.flags & kBsdfDelta) != 0u || bsdfPdf > kNarrowPdf;
     if (hasFeature(kFeatureCatcher)) {
         darkenObject(si, state.bounce, arrivedIn, result);
     }

@@ -46,6 +46,9 @@ GLIM_CONST uint kBindCatchers = 57u;
 GLIM_CONST uint kBindGroupSums = 59u;
 // light_groups.glsl
 GLIM_CONST uint kBindGroupLight = 58u;
+// guide.glsl, guide_records.glsl
+GLIM_CONST uint kBindGuide = 60u;
+GLIM_CONST uint kBindGuideRecords = 61u;
 // pass.glsl
 GLIM_CONST uint kBindChosenPixels = 22u;
 // notes.glsl
@@ -88,6 +91,7 @@ GLIM_CONST uint kSpecFolded = 16u;          // the host has taken pages of the f
 GLIM_CONST uint kSpecSuspects = 17u;        // each pixel's brightest sample is kept
 GLIM_CONST uint kSpecNotes = 18u;           // the kernels note what they find out about the only path of a pass
 GLIM_CONST uint kSpecMovingCamera = 19u;    // while the shutter is open
+GLIM_CONST uint kSpecGuided = 20u;          // paths are guided
 GLIM_CONST uint kSpecStackLevels = 23u;     // as many as the BVH needs
 GLIM_CONST uint kSpecTexelViews = 24u;      // as many as the textures need
 GLIM_CONST uint kSpecPathsPerThread = 25u;  // of the device's class

@@ -1,0 +1,49 @@
+// Samples the BSDF and the guide: one of them, with the density of both (the one-sample MIS of Veach and Guibas 1995).
+#ifndef GLIM_ACCESS_GUIDED_BSDF
+#define GLIM_ACCESS_GUIDED_BSDF
+
+#include "bsdf.glsl"
+#include "guide.glsl"
+
+float mixPdfs(Guide guide, float guidePdf, float bsdfPdf)
+{
+    return guide.share * guidePdf + (1.0 - guide.share) * bsdfPdf;
+}
+
+// A sample whose direction the guide has chosen, still unweighted.
+BsdfSample sampleGuided(Bsdf bsdf, Guide guide, vec2 u, out vec3 local, out float guidePdf)
+{
+    vec3 wi = sampleGuide(guide, u, guidePdf);
+    local = frameFromWorld(bsdf.frame, wi);
+    bool below = transmitsDiffusely(bsdf) && local.z < 0.0;
+    return BsdfSample(wi, vec3(0.0), 0.0, below ? bsdf.principled.eta : 1.0, kBsdfUnweighted | (below ? kBsdfTransmission : 0u));
+}
+
+// As evalAndSampleBsdf, of a BSDF that is not delta alone. Delta lobes are chosen as often as the guide leaves, for it has none of their
+// light. `bsdfPdf`: of the sample.
+BsdfPair evalAndSampleGuided(Bsdf bsdf, Guide guide, vec3 wo, vec3 lightWi, vec2 u, float uLobe, out float bsdfPdf)
+{
+    bool byGuide = uLobe < guide.share;
+    float rest = byGuide ? uLobe / guide.share : (uLobe - guide.share) / (1.0 - guide.share);
+    vec3 local;
+    BsdfSample next;
+    float guidePdf;
+    if (byGuide) {
+        next = sampleGuided(bsdf, guide, u, local, guidePdf);
+    } else {
+        next = sampleUnweighted(bsdf, wo, u, min(rest, 0.99999994), local);
+        guidePdf = pdfGuide(guide, next.wi);
+    }
+    BsdfPair pair = evalBsdfTwice(bsdf, wo, lightWi, next, local);
+    if (pair.light.pdf > 0.0) {
+        pair.light.pdf = mixPdfs(guide, pdfGuide(guide, lightWi), pair.light.pdf);
+    }
+    bsdfPdf = pair.next.pdf;
+    bool delta = (pair.next.flags & kBsdfDelta) != 0u;
+    float pdf = bsdfPdf > 0.0 ? mixPdfs(guide, guidePdf, bsdfPdf) : 0.0;
+    pair.next.weight *= delta ? 1.0 / (1.0 - guide.share) : pdf > 0.0 ? bsdfPdf / pdf : 0.0;
+    pair.next.pdf = pdf;
+    return pair;
+}
+
+#endif

@@ -1,0 +1,103 @@
+// --guiding: the film knows its guide, and whatever ends or divides a render, the bits are those of one run.
+#include "host/render/film_file.hpp"
+#include "host/render/settings.hpp"
+#include "tests/support/expect_message.hpp"
+#include "tests/support/run_glim.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+
+namespace glim::test {
+namespace {
+
+using nlohmann::json;
+
+class CommandLineGuidingTest : public ::testing::Test {
+protected:
+    GlimCall call(const std::vector<std::string>& arguments) const
+    {
+        GlimCall call;
+        call.arguments = {"render", sceneFile("cornell.gltf"), "--size", "12x12"};
+        call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
+        call.folder = folder_.path();
+        return call;
+    }
+    GlimRun run(const std::vector<std::string>& arguments) const
+    {
+        GlimRun run = runGlim(call(arguments));
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return run;
+    }
+    std::string digestOf(const char* film) const { return computeDigest(readFilm(folder_ / film)); }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
+{
+    run({"-o", "whole.exr", "--spp", "3000", "--guiding", "on"});
+    int kills = 0;
+    for (std::size_t lines = 1;; ++lines) {
+        GlimCall killed =
+            call({"-o", "film.exr", "--spp", "3000", "--guiding", "on", "--resume", "--checkpoint", "0.01s", "--progress", "json"});
+        killed.signalWhen = [lines](const std::string& err) { return countLines(err) > lines; };
+        killed.signal = lines % 2 == 0 ? SIGTERM : SIGKILL;
+        const GlimRun ended = runGlim(killed);
+        if (ended.exitCode == 0) {
+            break;
+        }
+        ASSERT_LT(++kills, 30);
+    }
+    EXPECT_GT(kills, 0);
+    EXPECT_EQ(digestOf("film.exr"), digestOf("whole.exr"));
+}
+
+TEST_F(CommandLineGuidingTest, PartsAreMergedToTheBitsOfOneRun)
+{
+    run({"-o", "whole.exr", "--spp", "512", "--guiding", "on", "--stats", "whole.json"});
+    run({"-o", "a.exr", "--samples", "0:256", "--guiding", "on", "--schedule", "wavefront"});
+    run({"-o", "b.exr", "--samples", "256:512", "--guiding", "on", "--schedule", "persistent"});
+    GlimCall merge;
+    merge.arguments = {"merge", "a.exr", "b.exr", "-o", "merged.exr"};
+    merge.folder = folder_.path();
+    const GlimRun merged = runGlim(merge);
+    EXPECT_EQ(merged.exitCode, 0) << merged.err;
+    EXPECT_EQ(digestOf("merged.exr"), digestOf("whole.exr"));
+    const json guide = json::parse(readFileBytes(folder_ / "whole.json")).at("guide");
+    EXPECT_EQ(guide.at("digest").get<std::string>(), findSetting(readFilm(folder_ / "whole.exr").identity.settings, "guide"));
+    EXPECT_GT(guide.at("cells").get<int>(), 0);
+    EXPECT_GT(guide.at("paths").get<int>(), 0);
+}
+
+TEST_F(CommandLineGuidingTest, NoFilmGoesOnWithoutItsGuide)
+{
+    run({"-o", "film.exr", "--spp", "64", "--guiding", "on"});
+    const GlimRun refused = runForMessages(call({"-o", "film.exr", "--spp", "128", "--resume"}));
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find("guide"), std::string::npos) << refused.err;
+}
+
+TEST_F(CommandLineGuidingTest, ReplayHasTheBitsOfTheFilm)
+{
+    run({"-o", "film.exr", "--samples", "5:6", "--guiding", "on"});
+    const glm::vec3 expected = readFilm(folder_ / "film.exr").pixels[11 * 12 + 6].mean;
+    const GlimRun replayed = run({"--guiding", "on", "--replay", "6,11,5", "--stats", "path.json"});
+    EXPECT_NE(replayed.out.find("that of BSDF and guide"), std::string::npos) << replayed.out;
+    const json radiance = json::parse(readFileBytes(folder_ / "path.json")).at("radiance");
+    EXPECT_EQ(glm::vec3(radiance.at(0).get<float>(), radiance.at(1).get<float>(), radiance.at(2).get<float>()), expected);
+}
+
+TEST_F(CommandLineGuidingTest, IsRefusedWhereItDoesNothing)
+{
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--view", "normal"}, {"--direct", "bsdf"}}) {
+        std::vector<std::string> arguments{"-o", "film.exr", "--guiding", "on"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expectRefused(runForMessages(call(arguments)), 2, MessageId::Conflict, {.place = "--guiding"});
+    }
+}
+
+}  // namespace
+}  // namespace glim::test

@@ -1,0 +1,135 @@
+// Path guiding keeps its promises: the same mean, the same bits by any schedule, samples, seed and rows, and less noise where light comes
+// through a gap.
+#include "host/flatten/flatten_scene.hpp"
+#include "host/render/build_guide.hpp"
+#include "host/render/learn_guide.hpp"
+#include "tests/support/build_scene.hpp"
+#include "tests/support/guide_records.hpp"
+#include "tests/support/render_scene.hpp"
+#include "tests/support/test_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace glim {
+namespace {
+
+constexpr std::uint32_t kSide = 24;
+
+// Two rooms with a wall between them, whose lower part has a slit of 12 cm. The lamp is in one room, the camera in the other.
+Scene doorAjar()
+{
+    SceneBuilder b;
+    const std::uint32_t wall = b.lambert(glm::vec3(0.7F)), lamp = b.lambert(glm::vec3(0.0F), glm::vec3(10.0F));
+    const auto box = [&](const glm::vec3& low, const glm::vec3& high, bool inwards) {
+        const auto corner = [&](int i) { return glm::vec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z); };
+        for (std::array<int, 4> face : {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+            if (inwards) {
+                std::reverse(face.begin(), face.end());
+            }
+            b.quad({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}, wall);
+        }
+    };
+    box({0, 0, 0}, {8.1F, 3, 4}, true);
+    box({4, 0, 0}, {4.1F, 3, 1.94F}, false);
+    box({4, 0, 2.06F}, {4.1F, 3, 4}, false);
+    box({4, 2, 1.94F}, {4.1F, 3, 2.06F}, false);
+    b.quad({glm::vec3(5.6F, 2.95F, 1.5F), {6.6F, 2.95F, 1.5F}, {6.6F, 2.95F, 2.5F}, {5.6F, 2.95F, 2.5F}}, lamp)
+        .perspective({0.4F, 1.5F, 0.4F}, {3.2F, 1, 3.2F}, 1.2F);
+    return b.scene();
+}
+
+std::shared_ptr<const Guide> learnFor(const Scene& scene, const RenderSettings& settings)
+{
+    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    return learnGuide(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), aspect, {}), settings);
+}
+
+double varianceOf(const Film& film)
+{
+    double sum = 0.0;
+    for (const PixelMoments& pixel : film.pixels) {
+        const glm::dvec3 variance = glm::dvec3(computeVarianceOfMean(pixel));
+        const glm::dvec3 mean = glm::dvec3(pixel.mean);
+        sum += variance.g / (mean.g * mean.g + 1e-12);
+    }
+    return sum / static_cast<double>(film.pixels.size());
+}
+
+TEST(GuideRenderTest, HasTheSameMeanAndLessNoiseBehindADoor)
+{
+    const Scene scene = doorAjar();
+    RenderSettings settings = squareSettings(2 * kSide, 1024);
+    const Film plain = renderScene(scene, settings);
+    settings.seed = 1;
+    settings.guide = learnFor(scene, settings);
+    EXPECT_GT(settings.guide->cells, 20U);
+    const Film guided = renderScene(scene, settings);  // by both schedules
+    expectSameMean("door ajar", guided, plain);
+    const double ratio = varianceOf(plain) / varianceOf(guided);
+    std::printf("relative variance of a pixel, plain over guided: %.2f\n", ratio);
+    EXPECT_GT(ratio, 1.5);
+}
+
+// Mirror, glass, a punctual light and an environment, so that every path through the kernels runs.
+TEST(GuideRenderTest, HasTheSameMeanInAMixedScene)
+{
+    const Scene scene = mixedScene();
+    RenderSettings settings = squareSettings(kSide, 1024);
+    settings.caustics = false;
+    const Film plain = renderScene(scene, settings);
+    settings.seed = 1;
+    settings.guide = learnFor(scene, settings);
+    expectSameMean("mixed scene", renderScene(scene, settings), plain);
+}
+
+TEST(GuideRenderTest, DependsOnSceneCameraAndSizeAlone)
+{
+    const Scene scene = doorAjar();
+    RenderSettings settings = squareSettings(kSide, 64);
+    const std::string digest = learnFor(scene, settings)->digest;
+    EXPECT_EQ(learnFor(scene, settings)->digest, digest) << "again";
+    RenderSettings other = settings;
+    other.seed = 7;
+    other.sampleBegin = 256;
+    other.sampleEnd = 4096;
+    other.rows = {4, 9};
+    other.schedule = Schedule::Wavefront;
+    other.pathCapacity = 1024;
+    other.adaptive = Adaptive::Neighbours;
+    EXPECT_EQ(learnFor(scene, other)->digest, digest);
+    other.width = 2 * kSide;
+    EXPECT_NE(learnFor(scene, other)->digest, digest);
+}
+
+TEST(GuideRenderTest, FilmsByOtherGuidesAreOthers)
+{
+    const Scene scene = doorAjar();
+    RenderSettings settings = squareSettings(8, 64);
+    const std::string plain = renderScene(scene, settings).identity.settings;
+    EXPECT_EQ(findSetting(plain, "guide"), "");
+    settings.guide = learnFor(scene, settings);
+    EXPECT_EQ(findSetting(renderScene(scene, settings).identity.settings, "guide"), settings.guide->digest);
+}
+
+// It knows a ball that is not there, and that the room with the lamp is the dark one.
+TEST(GuideRenderTest, AWrongGuideChangesNoMean)
+{
+    Random random(9);
+    std::vector<GuideRecord> records = recordsOfBall(100000, random);
+    for (GuideRecord& record : records) {
+        record.point = vec3(4.05F, 1.5F, 2.0F) * (1.0F + record.point);
+        record.direct = record.point.x < 4.0F ? 1.0F : 1e-4F;
+    }
+    const Scene scene = doorAjar();
+    RenderSettings settings = squareSettings(kSide, 4096);
+    const Film plain = renderScene(scene, settings);
+    settings.seed = 1;
+    settings.guide = std::make_shared<const Guide>(buildGuide(records));
+    expectSameMean("a wrong guide", renderScene(scene, settings), plain);
+}
+
+}  // namespace
+}  // namespace glim

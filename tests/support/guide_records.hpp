@@ -1,0 +1,36 @@
+// What paths might have written down, for guides.
+#pragma once
+
+#include "shaders/shared/guide_types.h"
+#include "tests/support/random.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace glim {
+
+// As lib/octahedral.glsl.
+inline std::uint32_t encodeDirection(const glm::dvec3& w)
+{
+    glm::dvec2 p = glm::dvec2(w.x, w.y) / (std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+    if (w.z < 0.0) {
+        p = (1.0 - glm::abs(glm::dvec2(p.y, p.x))) * glm::dvec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+    }
+    const auto bits = [](double x) { return static_cast<std::uint32_t>(std::lround(32767.0 * x)) & 0xffffU; };
+    return bits(p.x) | bits(p.y) << 16U;
+}
+
+// Points within a cube of 2 m, to which light comes from a ball of 10 cm beside it and, a tenth of it, from everywhere.
+inline std::vector<GuideRecord> recordsOfBall(std::size_t count, Random& random)
+{
+    const glm::dvec3 ball(1.6, 0.3, -0.4);
+    std::vector<GuideRecord> records;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 p = 2.0 * glm::dvec3(random.uniform(), random.uniform(), random.uniform()) - 1.0;
+        const glm::dvec3 w = i % 10 == 0 ? random.direction() : glm::normalize(ball + 0.1 * random.direction() - p);
+        records.push_back({vec3(p), 1.0F, encodeDirection(w), encodeDirection(random.direction()), 1.0F, 0.0F});
+    }
+    return records;
+}
+
+}  // namespace glim
