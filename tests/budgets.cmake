@@ -17,6 +17,7 @@ set(onlyInCi
     Catcher.AlphaHasTheErrorItStates
     CommandLineCatcherTest.FilmsResumeAndMergeToTheBitsOfOneRun
     GuideRenderTest.HasTheSameMeanAndLessNoiseBehindADoor
+    GuideRenderTest.HasTheSameMeanWithEveryLobe
     GuideRenderTest.AWrongGuideChangesNoMean
     CommandLineGuidingTest.KilledItGoesOnWithTheSameBits
     Lights/MirroredLightTest.*

@@ -97,6 +97,12 @@ bool hasNonDelta(Bsdf bsdf)
     return bsdf.type == kLambert || principled;
 }
 
+// How likely a lobe is chosen that scatters in many directions.
+float broadShare(Bsdf bsdf)
+{
+    return isPrincipled(bsdf.type) ? broadShare(bsdf.principled) : bsdf.type == kLambert ? 1.0 : 0.0;
+}
+
 // Whether a lobe that is not delta transmits.
 #define transmitsDiffusely(bsdf) \
     (hasFeature(kFeatureTransmission | kFeatureDiffuseTransmission) && isPrincipled((bsdf).type) && hasNonDelta(bsdf))

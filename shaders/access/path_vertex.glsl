@@ -139,6 +139,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     if (kGuided) {
         if (hasNonDelta(bsdf)) {
             guide = fetchGuide(si.p, bsdf.frame.z);
+            guide.share *= broadShare(bsdf);
         }
         result.learned = LearnedVertex(si.p, bsdf.frame.z, vec3(0.0), state.throughput * guide.reflected, false);
         survives = survivesArrival(guide, u.roulette, state);

@@ -409,6 +409,16 @@ bool isDeltaOnly(Principled p)
     return p.isSmooth && p.pDiffuse + p.pSheen + p.pThrough + (p.coatSmooth ? 0.0 : p.pCoat) == 0.0;
 }
 
+// GGX lobes from this alpha on scatter in so many directions that a guide helps to choose among them.
+const float kBroadAlpha = 0.25;
+
+// How likely a lobe is chosen that scatters in many directions.
+float broadShare(Principled p)
+{
+    float broad = p.pDiffuse + p.pSheen + p.pThrough + (min(p.alpha.x, p.alpha.y) >= kBroadAlpha ? p.pInterface : 0.0);
+    return hasFeature(kFeatureClearcoat) && p.coatAlpha.x >= kBroadAlpha ? broad + p.pCoat : broad;
+}
+
 // What evalAbove and evalBelow need.
 struct InterfaceEval {
     vec3 h;                        // the microfacet's normal; z <= 0 if there is none

@@ -85,6 +85,38 @@ TEST(GuideRenderTest, HasTheSameMeanInAMixedScene)
     expectSameMean("mixed scene", renderScene(scene, settings), plain);
 }
 
+// Coats, metals of two roughnesses, rough glass, cloth and a leaf: the guide leaves narrow lobes to the BSDF.
+TEST(GuideRenderTest, HasTheSameMeanWithEveryLobe)
+{
+    SceneBuilder b;
+    const auto add = [&](auto change) {
+        Material material;
+        material.baseColor = glm::vec3(0.7F, 0.6F, 0.5F);
+        material.metallic = 0.0F;
+        material.roughness = 0.6F;
+        change(material);
+        return b.add(material);
+    };
+    b.cube(1.0F, b.lambert(glm::vec3(0.6F)), true)
+        .quad({glm::vec3(-0.3F, 0.98F, -0.3F), {0.3F, 0.98F, -0.3F}, {0.3F, 0.98F, 0.3F}, {-0.3F, 0.98F, 0.3F}},
+              b.lambert(glm::vec3(0.0F), glm::vec3(8.0F)));
+    const std::uint32_t materials[] = {add([](Material& m) { m.metallic = 1.0F; }),
+                                       add([](Material& m) { m.metallic = 1.0F, m.roughness = 0.2F; }),
+                                       add([](Material& m) { m.clearcoat = 1.0F; }),
+                                       add([](Material& m) { m.transmission = 1.0F, m.roughness = 0.4F, m.thick = m.solid = true; }),
+                                       add([](Material& m) { m.sheenColor = glm::vec3(0.9F), m.sheenRoughness = 0.5F; }),
+                                       add([](Material& m) { m.diffuseTransmission = 0.6F; })};
+    for (int i = 0; i < 6; ++i) {
+        b.sphere({static_cast<float>(i % 3 - 1) * 0.6F, static_cast<float>(i / 3) * 0.8F - 0.5F, -0.3F}, 0.27F, materials[i]);
+    }
+    b.perspective({0.0F, 0.0F, 0.95F}, {0.0F, -0.1F, -1.0F}, 1.3F);
+    RenderSettings settings = squareSettings(kSide, 1024);
+    const Film plain = renderScene(b.scene(), settings);
+    settings.seed = 1;
+    settings.guide = learnFor(b.scene(), settings);
+    expectSameMean("every lobe", renderScene(b.scene(), settings), plain);
+}
+
 TEST(GuideRenderTest, DependsOnSceneCameraAndSizeAlone)
 {
     const Scene scene = doorAjar();
