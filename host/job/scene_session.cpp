@@ -103,8 +103,9 @@ std::shared_ptr<const Guide> SceneSession::learnGuide(const FlatCamera& camera, 
 {
     const std::string name = fingerprint(0, camera);
     const glm::uvec2 size(settings.width, settings.height);
-    if (!guide_ || guide_->camera != name || guide_->size != size) {
-        guide_ = LearnedGuide{name, size, glim::learnGuide(beginAhead(camera, settings), prepared_.flat, camera, settings)};
+    if (!guide_ || guide_->camera != name || guide_->size != size || guide_->caustics != settings.caustics) {
+        guide_ =
+            LearnedGuide{name, size, settings.caustics, glim::learnGuide(beginAhead(camera, settings), prepared_.flat, camera, settings)};
     }
     return guide_->guide;
 }

@@ -32,7 +32,8 @@ public:
     // Whether light paths find the caustics of a picture by these settings (light_path_gain.hpp). It is measured anew for another camera,
     // size or scene.
     bool choosesLightPaths(const FlatCamera& camera, const RenderSettings& settings);
-    // What the paths of a picture by these settings are guided by. It is learned anew for another camera, size or scene.
+    // What the paths of a picture by these settings are guided by. It is learned anew for another camera, size or scene,
+    // and if light paths find caustics now or no longer.
     std::shared_ptr<const Guide> learnGuide(const FlatCamera& camera, const RenderSettings& settings);
     // As begin(), for rays that are traced before the picture, which begin() then begins. Its statistics have the upload, not these rays.
     Renderer& beginAhead(const FlatCamera& camera, const RenderSettings& settings);
@@ -51,6 +52,7 @@ private:
     struct LearnedGuide {
         std::string camera;
         glm::uvec2 size;
+        bool caustics;
         std::shared_ptr<const Guide> guide;
     };
     using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length

@@ -34,7 +34,7 @@ bool hasSameKernels(const RenderResources& other, const FlatScene& scene, const 
            isCourse(other.settings.adaptive) == isCourse(asked.adaptive) && other.settings.learns == asked.learns;
 }
 
-// At once, of those that learn: what a tenth of the least storage buffer that Vulkan allows holds.
+// At once, of those that learn: an eighth of the least storage buffer that Vulkan allows.
 constexpr std::uint32_t kRecordedPaths = 65536;
 
 }  // namespace

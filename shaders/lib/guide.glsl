@@ -4,7 +4,8 @@
 
 #include "octahedral.glsl"
 
-// The octahedral map, in [0, 1]^2. It needs no angles; areas vary by a factor of 5, which the density of a quadtree's leaf makes up for.
+// The octahedral map, in [0, 1]^2. It needs no angles; areas vary by a factor of 5, which pdfOfSquare() makes up for. 1e-20:
+// the light sample that does not exist has w = 0, and no unit vector is as short.
 vec2 squareFromDirection(vec3 w)
 {
     vec2 p = w.xy / max(abs(w.x) + abs(w.y) + abs(w.z), 1e-20);

@@ -340,6 +340,18 @@ class UseTest(PythonCase):
         self.assertNotIn("caustics=off", film.settings)
         self.assertEqual(film.digest, hide(load()).render(fov=1).digest)
 
+    def test_guides_are_learned_for_each_camera_and_kind_of_caustics(self):
+        """A session keeps its guide for pictures that learn the same one, and for no others."""
+        def load():
+            return glim.load(scene("cornell_mirror_glass"), size=(12, 12), spp=4, guiding=True)
+        box, guides = load(), set()
+        for options in ({"caustics": "off"}, {"caustics": "on"}, {"caustics": "on", "fov": 20}, {"caustics": "on", "fov": 20, "seed": 1}):
+            film = box.render(**options)
+            self.assertEqual(film.digest, load().render(**options).digest)
+            guides.update(word for word in film.settings.split() if word.startswith("guide="))
+        self.assertEqual(len(guides), 3)
+        self.assertNotIn("guide=", box.render(guiding=False).settings)
+
     def test_have_ids_and_parts(self):
         def parts_of(step):
             with self.assertRaises((glim.InputError, glim.DeviceError)) as caught:
