@@ -148,6 +148,17 @@ void printArrival(const PathVertex& vertex)
     }
 }
 
+// Whether the next direction was sampled with a guide, and the path had a use for it.
+bool isGuided(const PathVertex& vertex)
+{
+    return vertex.bsdf.guideShare > 0.0F && vertex.end != PathEnd::LastBounce && vertex.end != PathEnd::Roulette;
+}
+
+bool isDelta(const PathVertex& vertex) { return (vertex.bsdf.lobeFlags & kDelta) != 0; }
+
+// The guide knows no lobes.
+const char* lobeOf(const PathVertex& vertex) { return vertex.bsdf.isByGuide != 0 ? nullptr : kLobes[vertex.bsdf.lobe]; }
+
 void printSampledLight(const ReplayReport& report, const SampledLight& each)
 {
     const PathNote& note = each.note;
@@ -159,7 +170,7 @@ void printSampledLight(const ReplayReport& report, const SampledLight& each)
     std::cout << " towards " << toText(each.ray.direction);
     if (!each.hemisphere) {
         std::cout << ", pdf " << (note.lightPdf > 0.0F ? exactText(note.lightPdf) + " per sr" : "0 (delta light)") << " against "
-                  << (report.settings.guide ? "that of BSDF and guide, " : "the BSDF's ") << exactText(note.bsdfPdf) << ", MIS weight "
+                  << (note.guideShare > 0.0F ? "that of BSDF and guide, " : "the BSDF's ") << exactText(note.bsdfPdf) << ", MIS weight "
                   << exactText(note.misWeightOfLight);
     }
     const bool lost = each.added.radiance == glm::vec3(0.0F);
@@ -170,11 +181,28 @@ void printSampledLight(const ReplayReport& report, const SampledLight& each)
               << "\n";
 }
 
+void printGuide(const PathVertex& vertex)
+{
+    const PathNote& note = vertex.bsdf;
+    std::cout << "  direction chosen by the " << (note.isByGuide != 0 ? "guide" : "BSDF") << ", guide's share "
+              << exactText(note.guideShare);
+    if (isDelta(vertex)) {
+        std::cout << ": a delta lobe, which has no pdf\n";
+        return;
+    }
+    std::cout << ": pdf of the guide " << exactText(note.guidePdf) << " per sr, of the BSDF " << exactText(note.nextBsdfPdf) << ", mixed "
+              << exactText(note.nextPdf) << "\n";
+}
+
 void printScattering(const PathVertex& vertex)
 {
+    if (isGuided(vertex)) {
+        printGuide(vertex);
+    }
     std::cout << "  " << kEnds[static_cast<int>(vertex.end)];
     if (vertex.end == PathEnd::Continues) {
-        std::cout << " by its " << kLobes[vertex.bsdf.lobe] << " lobe" << ((vertex.bsdf.lobeFlags & kDelta) != 0 ? ", delta" : "")
+        const char* lobe = lobeOf(vertex);
+        std::cout << (lobe != nullptr ? std::string(" by its ") + lobe + " lobe" : " by the guide") << (isDelta(vertex) ? ", delta" : "")
                   << ((vertex.bsdf.lobeFlags & kTransmitted) != 0 ? ", to the other side" : "") << ", with pdf "
                   << exactText(vertex.after.pdf) << ", weight " << toText(vertex.bsdf.weight) << ", throughput "
                   << toText(vertex.after.throughput);
@@ -196,6 +224,9 @@ void printVertex(const ReplayReport& report, const PathVertex& vertex)
     printSurface(report, vertex);
     printMaterial(report, vertex.surface);
     printArrival(vertex);
+    if (vertex.bsdf.arrival > 0.0F) {
+        std::cout << "  roulette on arrival: continuation probability " << exactText(vertex.bsdf.arrival) << "\n";
+    }
     for (const SampledLight& each : vertex.sampledLights) {
         printSampledLight(report, each);
     }
@@ -260,10 +291,21 @@ Json vertexJson(const ReplayReport& report, const PathVertex& vertex)
                  {"sampledLights", sampled},
                  {"end", kEnds[static_cast<int>(vertex.end)]},
                  {"continuation", vertex.bsdf.continuation},
+                 {"continuationOnArrival", vertex.bsdf.arrival},
+                 {"guide", nullptr},
                  {"next", nullptr}};
+    if (isGuided(vertex)) {
+        const PathNote& note = vertex.bsdf;
+        json.set("guide", {{"chose", note.isByGuide != 0},
+                           {"share", note.guideShare},
+                           {"guidePdf", note.guidePdf},
+                           {"bsdfPdf", note.nextBsdfPdf},
+                           {"pdf", note.nextPdf}});
+    }
     if (vertex.end == PathEnd::Continues) {
-        json.set("next", {{"lobe", kLobes[vertex.bsdf.lobe]},
-                          {"delta", (vertex.bsdf.lobeFlags & kDelta) != 0},
+        const char* lobe = lobeOf(vertex);
+        json.set("next", {{"lobe", lobe != nullptr ? Json(lobe) : Json()},
+                          {"delta", isDelta(vertex)},
                           {"transmitted", (vertex.bsdf.lobeFlags & kTransmitted) != 0},
                           {"weight", jsonOf(vertex.bsdf.weight)},
                           {"pdf", vertex.after.pdf},

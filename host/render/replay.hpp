@@ -45,7 +45,7 @@ struct PathVertex {
     PathNote surface{};      // the surface, and the light that the ray has hit
     PathRadiance emitted{};  // the radiance that this light added
     std::vector<SampledLight> sampledLights;
-    PathNote bsdf{};  // weight, throughput and probability to continue
+    PathNote bsdf{};  // weight, throughput and probability to continue; what the guide had to do with it
     PathEnd end = PathEnd::Continues;
     PathState after{};  // state of the next ray, if the path continues
 };

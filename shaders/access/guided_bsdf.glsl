@@ -4,6 +4,7 @@
 
 #include "bsdf.glsl"
 #include "guide.glsl"
+#include "notes.glsl"
 
 float mixPdfs(Guide guide, float guidePdf, float bsdfPdf)
 {
@@ -20,18 +21,18 @@ BsdfSample sampleGuided(Bsdf bsdf, Guide guide, vec2 u, out vec3 local, out floa
 }
 
 // As evalAndSampleBsdf, of a BSDF that is not delta alone. Delta lobes are chosen as often as the guide leaves, for it has none of their
-// light. `bsdfPdf`: of the sample.
-BsdfPair evalAndSampleGuided(Bsdf bsdf, Guide guide, vec3 wo, vec3 lightWi, vec2 u, float uLobe, out float bsdfPdf)
+// light. `bsdfPdf`: of the sample. `uLobe` becomes the number that has chosen the lobe.
+BsdfPair evalAndSampleGuided(Bsdf bsdf, Guide guide, vec3 wo, vec3 lightWi, vec2 u, inout float uLobe, out float bsdfPdf)
 {
     bool byGuide = uLobe < guide.share;
-    float rest = byGuide ? uLobe / guide.share : (uLobe - guide.share) / (1.0 - guide.share);
+    uLobe = min(byGuide ? uLobe / guide.share : (uLobe - guide.share) / (1.0 - guide.share), 0.99999994);
     vec3 local;
     BsdfSample next;
     float guidePdf;
     if (byGuide) {
         next = sampleGuided(bsdf, guide, u, local, guidePdf);
     } else {
-        next = sampleUnweighted(bsdf, wo, u, min(rest, 0.99999994), local);
+        next = sampleUnweighted(bsdf, wo, u, uLobe, local);
         guidePdf = pdfGuide(guide, next.wi);
     }
     BsdfPair pair = evalBsdfTwice(bsdf, wo, lightWi, next, local);
@@ -43,6 +44,7 @@ BsdfPair evalAndSampleGuided(Bsdf bsdf, Guide guide, vec3 wo, vec3 lightWi, vec2
     float pdf = bsdfPdf > 0.0 ? mixPdfs(guide, guidePdf, bsdfPdf) : 0.0;
     pair.next.weight *= delta ? 1.0 / (1.0 - guide.share) : pdf > 0.0 ? bsdfPdf / pdf : 0.0;
     pair.next.pdf = pdf;
+    noteGuide(byGuide, guide.share, delta ? 0.0 : guidePdf, bsdfPdf, pdf);
     return pair;
 }
 

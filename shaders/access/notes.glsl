@@ -65,6 +65,29 @@ void noteLightSample(float pdf, float bsdfPdf, float weight)
     }
 }
 
+// The direction that a vertex with a guide has sampled. `pdf`: of both.
+void noteGuide(bool isByGuide, float share, float guidePdf, float bsdfPdf, float pdf)
+{
+    if (kNotes) {
+        pathNote.isByGuide = uint(isByGuide);
+        pathNote.guideShare = share;
+        pathNote.guidePdf = guidePdf;
+        pathNote.nextBsdfPdf = bsdfPdf;
+        pathNote.nextPdf = pdf;
+    }
+}
+
+// If the path ends there, no bounce is noted.
+void noteArrival(float continuation, bool survives)
+{
+    if (kNotes) {
+        pathNote.arrival = continuation;
+        if (!survives) {
+            pathNote.continuation = continuation;
+        }
+    }
+}
+
 void noteLobe(uint lobe, uint flags)
 {
     if (kNotes) {

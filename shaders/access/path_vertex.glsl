@@ -82,7 +82,9 @@ bool survivesArrival(Guide guide, float u, inout PathState state)
     }
     float q = max(kLeastGuidedContinuation, continuationProbability(state.throughput * guide.radiance, state.etaScale, kRouletteBounce));
     state.throughput /= q;
-    return u < q;
+    bool survives = u < q;
+    noteArrival(q, survives);
+    return survives;
 }
 
 LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce, out uint group)

@@ -82,6 +82,12 @@ struct PathNote {
     float lightPdf;                    // of choosing that light and that direction; 0: a point, spot or directional light
     float bsdfPdf;                     // of BSDF sampling, for that direction
     float misWeightOfLight;
+    uint isByGuide;      // 1: the guide chose the next direction, else the BSDF
+    float guideShare;    // how likely it does; 0: no guide is known there, and the pdfs are 0
+    float guidePdf;      // the guide's, for that direction; 0 of a delta lobe
+    float nextBsdfPdf;   // the BSDF's
+    float nextPdf;       // that it was weighted by; 0 of a delta lobe, and where the BSDF's is 0
+    float arrival;       // probability of a guided path's roulette, which is on arrival; 0: there was none
     uint lobe;           // that the next direction was sampled from: kLambert, kMirror or kDielectric, or kPrincipled + kLobeInterface ...
     uint lobeFlags;      // kBsdfDelta | kBsdfTransmission
     vec3 weight;         // of the sampled direction: BSDF * |cos| / pdf

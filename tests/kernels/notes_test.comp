@@ -34,9 +34,11 @@ void main()
         noteHitLight(10.0, 11.0);
         noteLight(12u);
         noteLightSample(13.0, 14.0, 15.0);
+        noteGuide(true, 23.0, 24.0, 25.0, 26.0);
         noteLobe(30u, 31u);
         noteBounce(vec3(16.0, 17.0, 18.0), vec3(19.0, 20.0, 21.0));
         noteContinuation(22.0);
+        noteArrival(27.0, true);
         EXPECT_TRUE(!kNotes || pass.pixelCount == 1u);
     }
     endTest();

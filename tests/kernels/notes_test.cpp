@@ -48,6 +48,12 @@ TEST(NotesTest, TellEverythingToWhoAsks)
     EXPECT_EQ(note.lightPdf, 13.0F);
     EXPECT_EQ(note.bsdfPdf, 14.0F);
     EXPECT_EQ(note.misWeightOfLight, 15.0F);
+    EXPECT_EQ(note.isByGuide, 1U);
+    EXPECT_EQ(note.guideShare, 23.0F);
+    EXPECT_EQ(note.guidePdf, 24.0F);
+    EXPECT_EQ(note.nextBsdfPdf, 25.0F);
+    EXPECT_EQ(note.nextPdf, 26.0F);
+    EXPECT_EQ(note.arrival, 27.0F);
     EXPECT_EQ(note.weight, vec3(16, 17, 18));
     EXPECT_EQ(note.throughput, vec3(19, 20, 21));
     EXPECT_EQ(note.continuation, 22.0F);
@@ -60,6 +66,8 @@ TEST(NotesTest, AreNotTakenElsewhere)
     EXPECT_EQ(note.front, 0U);
     EXPECT_EQ(note.light, 0U);
     EXPECT_EQ(note.misWeightOfLight, 0.0F);
+    EXPECT_EQ(note.guideShare, 0.0F);
+    EXPECT_EQ(note.arrival, 0.0F);
     EXPECT_EQ(note.throughput, vec3(0.0F));
     EXPECT_EQ(note.continuation, 0.0F);
 }

@@ -12,7 +12,7 @@ static_assert(sizeof(PathRay) == 32 && sizeof(PathHit) == 16 && sizeof(PathState
 static_assert(sizeof(FirstHit) == 32 && sizeof(ShadowRay) == 48 && sizeof(Round) == 32);
 static_assert(sizeof(RayCounts) == 16 && sizeof(Located) == 8 && sizeof(Status) == 36 + 8 * kMaxLocated);
 static_assert(sizeof(BlockSums) == 52 && sizeof(Splat) == 32 && sizeof(Pass) == 32 && sizeof(PixelMoments) == 68);
-static_assert(sizeof(PathNote) == 172 && sizeof(BrightestSample) == 8);
+static_assert(sizeof(PathNote) == 196 && sizeof(BrightestSample) == 8);
 static_assert(sizeof(CatcherMoments) == 44 && sizeof(CatcherSums) == 72);
 static_assert(sizeof(MaterialData) == 48 && sizeof(LightNode) == 48 && sizeof(FlatLight) == 80 && sizeof(InstanceData) == 80);
 static_assert(sizeof(PrincipledData) == 64 && sizeof(LayersData) == 96 && sizeof(MediumData) == 32 && sizeof(ScatteringData) == 16 &&

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <map>
+#include <regex>
 
 namespace glim::test {
 namespace {
@@ -86,8 +88,48 @@ TEST_F(CommandLineGuidingTest, ReplayHasTheBitsOfTheFilm)
     const glm::vec3 expected = readFilm(folder_ / "film.exr").pixels[11 * 12 + 6].mean;
     const GlimRun replayed = run({"--guiding", "on", "--replay", "6,11,5", "--stats", "path.json"});
     EXPECT_NE(replayed.out.find("that of BSDF and guide"), std::string::npos) << replayed.out;
-    const json radiance = json::parse(readFileBytes(folder_ / "path.json")).at("radiance");
+    const json path = json::parse(readFileBytes(folder_ / "path.json")), &radiance = path.at("radiance");
     EXPECT_EQ(glm::vec3(radiance.at(0).get<float>(), radiance.at(1).get<float>(), radiance.at(2).get<float>()), expected);
+}
+
+// What is printed of the directions that were sampled with a guide, in text and JSON.
+TEST_F(CommandLineGuidingTest, ReplaySaysWhoChoseADirection)
+{
+    static const std::regex kLine(R"(direction chosen by the (guide|BSDF), guide's share ([^:]+): )"
+                                  R"(pdf of the guide ([^ ]+) per sr, of the BSDF ([^,]+), mixed ([^\n]+)\n)");
+    std::map<std::string, int> choices;
+    for (int sample = 0; sample < 3; ++sample) {
+        const GlimRun replayed =
+            run({"--guiding", "on", "--replay", "6,11," + std::to_string(sample), "--spp", "3", "--stats", "path.json"});
+        const json path = json::parse(readFileBytes(folder_ / "path.json"));
+        std::sregex_iterator line(replayed.out.begin(), replayed.out.end(), kLine);
+        for (const json& vertex : path.at("vertices")) {
+            const json& guide = vertex.at("guide");
+            if (guide.is_null()) {
+                continue;
+            }
+            ASSERT_NE(line, std::sregex_iterator()) << replayed.out;
+            EXPECT_EQ(guide.at("chose").get<bool>(), (*line)[1] == "guide");
+            const char* const kNumbers[] = {"share", "guidePdf", "bsdfPdf", "pdf"};
+            for (std::size_t k = 0; k < 4; ++k) {
+                EXPECT_EQ(guide.at(kNumbers[k]).get<float>(), std::stof((*line)[2 + k])) << kNumbers[k];
+            }
+            if (!vertex.at("next").is_null()) {
+                EXPECT_EQ(vertex.at("next").at("pdf"), guide.at("pdf"));
+                EXPECT_EQ(vertex.at("next").at("lobe"), guide.at("chose").get<bool>() ? json() : json("diffuse"));
+            }
+            ++choices[(*line)[1]];
+            ++line;
+        }
+        EXPECT_EQ(line, std::sregex_iterator()) << replayed.out;
+    }
+    EXPECT_GT(choices["guide"], 0);
+    EXPECT_GT(choices["BSDF"], 0);
+    run({"--replay", "6,11,0", "--stats", "path.json"});
+    const json plain = json::parse(readFileBytes(folder_ / "path.json"));
+    for (const json& vertex : plain.at("vertices")) {
+        EXPECT_TRUE(vertex.at("guide").is_null());
+    }
 }
 
 TEST_F(CommandLineGuidingTest, IsRefusedWhereItDoesNothing)

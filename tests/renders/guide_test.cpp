@@ -3,14 +3,17 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/build_guide.hpp"
 #include "host/render/learn_guide.hpp"
+#include "host/render/replay.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/guide_records.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace glim {
@@ -161,6 +164,63 @@ TEST(GuideRenderTest, AWrongGuideChangesNoMean)
     settings.seed = 1;
     settings.guide = std::make_shared<const Guide>(buildGuide(records));
     expectSameMean("a wrong guide", renderScene(scene, settings), plain);
+}
+
+struct GuidedVertices {
+    int all = 0, byGuide = 0, rouletted = 0;
+    double surplus = 0.0, variance = 0.0;  // of choices by the guide; where it is likelier, they count more
+};
+
+// By the vertex's own numbers. All surfaces are Lambert.
+void checkGuided(const PathVertex& vertex, const PathVertex* next, GuidedVertices& sums)
+{
+    const PathNote& note = vertex.bsdf;
+    sums.rouletted += vertex.end == PathEnd::Roulette ? 1 : 0;
+    EXPECT_EQ(vertex.end == PathEnd::Roulette, next == nullptr && note.continuation > 0.0F) << "a path with light to bring goes on";
+    if (!(note.guideShare > 0.0F)) {
+        return;
+    }
+    const double share = static_cast<double>(note.guideShare), bsdf = static_cast<double>(note.nextBsdfPdf);
+    const double mixed = share * static_cast<double>(note.guidePdf) + (1.0 - share) * bsdf;
+    EXPECT_NEAR(static_cast<double>(note.nextPdf), bsdf > 0.0 ? mixed : 0.0, 1e-6 * mixed);
+    ++sums.all;
+    sums.byGuide += static_cast<int>(note.isByGuide);
+    const double likely = share * static_cast<double>(note.guidePdf) / mixed;  // that the guide chose it, by Bayes
+    sums.surplus += likely * (static_cast<double>(note.isByGuide) - likely);
+    sums.variance += likely * likely * likely * (1.0 - likely);
+    if (next == nullptr) {
+        return;
+    }
+    EXPECT_EQ(next->before.pdf, note.nextPdf);
+    const float cosine = glm::dot(next->ray.direction, note.ns);
+    EXPECT_NEAR(note.nextBsdfPdf, cosine * glm::one_over_pi<float>(), 1e-6F);
+    EXPECT_NEAR(note.weight.g, note.baseColor.g * note.nextBsdfPdf / note.nextPdf, 1e-5F * note.weight.g);
+    EXPECT_NEAR(next->before.throughput.g, vertex.before.throughput.g / (vertex.bounce > 0 ? note.arrival : 1.0F) * note.weight.g,
+                1e-5F * next->before.throughput.g);
+}
+
+TEST(GuideRenderTest, ReplaysSayWhoChoseADirectionAndHowLikelyItWas)
+{
+    const Scene scene = doorAjar();
+    RenderSettings settings = squareSettings(kSide, 2);
+    settings.guide = learnFor(scene, settings);
+    const Film film = renderScene(scene, settings);
+    const FlatScene flat = flattened(scene);
+    Replay replay(testDevice(), flat, flattenCamera(scene.cameras.front(), 1.0F, {}), settings);
+    GuidedVertices sums;
+    for (std::uint32_t pixel = 0; pixel < kSide * kSide; pixel += 5) {
+        const ReplayedPath a = replay.trace(pixel, 0), b = replay.trace(pixel, 1);
+        EXPECT_NEAR(film.pixels[pixel].mean.g, 0.5F * (a.radiance.radiance.g + b.radiance.radiance.g), 1e-6F * film.pixels[pixel].mean.g);
+        for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+            checkGuided(a.vertices[i], i + 1 < a.vertices.size() ? &a.vertices[i + 1] : nullptr, sums);
+        }
+    }
+    std::printf("%d directions, %d by the guide (z = %.2f); %d paths ended by roulette\n", sums.all, sums.byGuide,
+                sums.surplus / std::sqrt(sums.variance), sums.rouletted);
+    EXPECT_GT(sums.all, 200);
+    EXPECT_GT(sums.rouletted, 10);
+    EXPECT_GT(sums.byGuide, 100);
+    EXPECT_NEAR(sums.surplus, 0.0, 4.0 * std::sqrt(sums.variance));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 495u;
+GLIM_CONST uint kSharedWords = 501u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -69,7 +69,8 @@ F3(note.point) F3(note.ng) F3(note.ns) U(note.front) F3(note.baseColor) F(note.m
 F(note.diffuseTransmission) F(note.clearcoat) F(note.clearcoatRoughness) F3(note.sheenColor) F(note.sheenRoughness) F(note.anisotropy)
 F(note.iridescence) F(note.filmThickness) F(note.alpha) U(note.medium)
 F(note.lightPdfOfHit) F(note.misWeightOfHit) U(note.light) F(note.lightPdf)
-F(note.bsdfPdf) F(note.misWeightOfLight) U(note.lobe) U(note.lobeFlags) F3(note.weight) F3(note.throughput) F(note.continuation)
+F(note.bsdfPdf) F(note.misWeightOfLight) U(note.isByGuide) F(note.guideShare) F(note.guidePdf) F(note.nextBsdfPdf) F(note.nextPdf) F(note.arrival)
+U(note.lobe) U(note.lobeFlags) F3(note.weight) F3(note.throughput) F(note.continuation)
 U(round.paths.count) U3(round.paths.groups) U(round.shadowRays.count) U3(round.shadowRays.groups)
 U2(rayCounts.closest) U2(rayCounts.shadow)
 U(located.pixel) U(located.sampleIndex)
