@@ -7,8 +7,8 @@ namespace {
 
 void addAov(OptionTable& table, RenderJob& options)
 {
-    addEnum(table, "--view", "V", "Picture of: shaded, normal, depth, albedo or bvh-steps [shaded]",
-            {"shaded", "normal", "depth", "albedo", "bvh-steps"}, options.settings.aov);
+    addEnum(table, "--view", "V", "Picture of: shaded, normal, depth, albedo, bvh-steps or guide [shaded]",
+            {"shaded", "normal", "depth", "albedo", "bvh-steps", "guide"}, options.settings.aov);
 }
 
 void addShutter(OptionTable& table, RenderJob& options)

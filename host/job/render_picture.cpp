@@ -34,7 +34,9 @@ PictureFrame framePicture(SceneSession& session, const RenderJob& options)
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     const FlatCamera flatCamera = flattenCamera(session.prepared(), camera, aspect, options.lens);
     if (options.caustics == CausticsChoice::Auto) {
-        settings.caustics = session.choosesLightPaths(flatCamera, settings);
+        RenderSettings shaded = settings;
+        shaded.aov = settings.aov == Aov::Guide ? Aov::Radiance : settings.aov;  // whose guide is shown
+        settings.caustics = session.choosesLightPaths(flatCamera, shaded);
     }
     if (options.guiding == GuidingChoice::On) {
         settings.guide = session.learnGuide(flatCamera, settings);

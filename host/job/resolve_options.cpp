@@ -40,6 +40,7 @@ struct Rule {
 
 bool isOfAov(const PictureOptions& picture) { return picture.settings.aov != Aov::Radiance; }
 bool isOfAovWithoutExposure(const PictureOptions& picture) { return isOfAov(picture) && picture.settings.aov != Aov::Albedo; }
+bool isOfAovWithoutGuide(const PictureOptions& picture) { return isOfAov(picture) && picture.settings.aov != Aov::Guide; }
 bool isByCourse(const PictureOptions& picture) { return isCourse(picture.settings.adaptive); }
 bool isNotByCourse(const PictureOptions& picture) { return !isByCourse(picture); }
 bool isByNeighbours(const PictureOptions& picture) { return isNeighbours(picture.settings.adaptive); }
@@ -51,11 +52,12 @@ bool hasOneLightSample(const PictureOptions& picture)
 }
 
 const Rule<PictureOptions> kPictureRules[] = {
-    {{"--bounces", "--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--caustics", "--guiding", "--adaptive",
-      "--rates", "--suspects", "--target-rmse", "--target-relmse", "--tone"},
+    {{"--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--adaptive", "--rates", "--suspects", "--target-rmse",
+      "--target-relmse", "--tone"},
      isOfAov,
      MessageId::Conflict,
      "has no effect with --view {--view}"},
+    {{"--bounces", "--caustics", "--guiding"}, isOfAovWithoutGuide, MessageId::Conflict, "has no effect with --view {--view}"},
     {{"--exposure"}, isOfAovWithoutExposure, MessageId::Conflict, "has no effect with --view {--view}"},
     {{"--tolerance", "--batch", "--max-spp"},
      isNotByCourse,
@@ -149,8 +151,9 @@ void apply(std::span<const Rule<Asked>> rules, const OptionTable& table, const A
     }
 }
 
-void resolveAov(const OptionTable& table, RenderSettings& settings)
+void resolveAov(const OptionTable& table, RenderJob& job)
 {
+    RenderSettings& settings = job.settings;
     if (settings.aov == Aov::Radiance) {
         return;
     }
@@ -158,7 +161,10 @@ void resolveAov(const OptionTable& table, RenderSettings& settings)
         refuse(table, "--view", MessageId::Conflict,
                {"with --accelerator none there is no BVH; expected ", part::expected("--accelerator bvh")});
     }
-    settings.bounces = 0;
+    if (settings.aov == Aov::Guide && job.guiding == GuidingChoice::Off) {
+        refuse(table, "--view", MessageId::Requires, {"shows what paths are guided by; expected ", part::expected("--guiding on")});
+    }
+    settings.bounces = settings.aov == Aov::Guide ? settings.bounces : 0;  // of the paths that learn
     if (!table.isGiven("--spp") && !table.isGiven("--samples")) {
         settings.sampleEnd = kAovSamples;
     }
@@ -422,7 +428,7 @@ void resolveRender(const OptionTable& table, RenderJob& job)
     apply<PictureOptions>(kPictureRules, table, job);
     apply<RenderJob>(kRenderRules, table, job);
     checkNames(table, job);
-    resolveAov(table, job.settings);
+    resolveAov(table, job);
     resolveAdaptive(table, job.settings);
     resolveTime(table, job.settings);
     resolveReplay(table, job);

@@ -38,7 +38,7 @@ constexpr HelpLine kHelp[] = {
 
 const char* getName(Aov aov)
 {
-    constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "samples"};
+    constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "guide", "samples"};
     return kNames[static_cast<int>(aov)];
 }
 

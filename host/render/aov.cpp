@@ -14,6 +14,7 @@ namespace {
 static_assert(static_cast<std::uint32_t>(Aov::Radiance) == kAovRadiance && static_cast<std::uint32_t>(Aov::Normal) == kAovNormal);
 static_assert(static_cast<std::uint32_t>(Aov::Depth) == kAovDepth && static_cast<std::uint32_t>(Aov::Albedo) == kAovAlbedo);
 static_assert(static_cast<std::uint32_t>(Aov::SampleCount) == kAovSampleCount && static_cast<std::uint32_t>(Aov::BvhSteps) == kAovBvhSteps);
+static_assert(static_cast<std::uint32_t>(Aov::Guide) == kAovGuide);
 static_assert(static_cast<std::uint32_t>(Tone::None) == kToneNone && static_cast<std::uint32_t>(Tone::Neutral) == kToneNeutral &&
               static_cast<std::uint32_t>(Tone::Agx) == kToneAgx);
 
@@ -36,6 +37,18 @@ std::optional<float> valueOf(const PixelMoments& pixel, Aov aov)
         return {};
     }
     return aov == Aov::SampleCount ? static_cast<float>(pixel.count) : aov == Aov::BvhSteps ? pixel.mean.r : pixel.depth;
+}
+
+// The direction's colour is full where the guide chooses among 1/64 of all directions.
+constexpr float kMostGuideBits = 6.0F;
+
+Rgb8 guideColor(const glm::vec3& mean, float alpha)
+{
+    const float length = glm::length(mean);
+    if (!(length > 0.0F)) {
+        return {};
+    }
+    return roundToBytes(std::clamp(std::log2(length / alpha) / kMostGuideBits, 0.0F, 1.0F) * vectorColor(mean / length));
 }
 
 }  // namespace
@@ -82,6 +95,7 @@ Rgb8 displayColor(const PixelMoments& pixel, Aov aov, const DisplayRange& range,
     case Aov::Albedo: return srgb(pixel.albedo, {look.exposure, Tone::None});
     case Aov::SampleCount: return roundToBytes(heatColor(placeOnScale(pixel.count, low, high, 1.0)));
     case Aov::BvhSteps: return roundToBytes(heatColor(placeOnScale(static_cast<double>(pixel.mean.r), low, high, kSmallestScale)));
+    case Aov::Guide: return guideColor(pixel.mean, pixel.alpha);
     case Aov::Radiance: break;
     }
     return srgb(pixel.mean,

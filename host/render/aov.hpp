@@ -22,6 +22,8 @@ struct Look {
 //   Depth              of the nearest surface, linear from white (nearest of the picture) to dark grey (farthest); black where none
 //   SampleCount        samples of a pixel, heatColor from the fewest to the most of the picture; blue if all have the same
 //   BvhSteps           with --view bvh-steps: inner nodes visited per ray, heatColor from 0 to the 99.9th percentile of the pixels
+//   Guide              with --view guide: .5 + .5 w of the guide's mean direction w, times log2(N) / 6, at most 1, where it chooses among
+//                      1/N of all directions; black where there is no guide
 // The ends of the scale on which `aov` shows depths, samples or steps.
 struct DisplayRange {
     float low = 0.0F, high = 1.0F;

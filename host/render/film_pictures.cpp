@@ -30,14 +30,14 @@ std::vector<Color> draw(const Film& film, Aov aov, const Look& look,
 Aov getAov(const Film& film)
 {
     const std::map<std::string, Aov> aovs = {
-        {"normal", Aov::Normal}, {"depth", Aov::Depth}, {"albedo", Aov::Albedo}, {"bvh-steps", Aov::BvhSteps}};
+        {"normal", Aov::Normal}, {"depth", Aov::Depth}, {"albedo", Aov::Albedo}, {"bvh-steps", Aov::BvhSteps}, {"guide", Aov::Guide}};
     const auto found = aovs.find(findSetting(film.identity.settings, "view"));
     return found == aovs.end() ? Aov::Radiance : found->second;
 }
 
 void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look)
 {
-    const bool showsSurfaces = aov != Aov::SampleCount && aov != Aov::BvhSteps;
+    const bool showsSurfaces = aov != Aov::SampleCount && aov != Aov::BvhSteps && aov != Aov::Guide;
     const std::optional<PictureKind> kind = getPictureKind(path);
     if (film.showsBackground || !showsSurfaces) {
         writePicture(path, film.width, film.height, draw(film, aov, look, displayColor));

@@ -14,7 +14,7 @@ std::string describeSettings(const RenderSettings& settings)
 {
     constexpr const char* kDirect[] = {"mis", "lights", "hemisphere", "bsdf"};
     constexpr const char* kPaths[] = {"all", "emission", "direct", "indirect"};
-    constexpr const char* kAovs[] = {"shaded", "normal", "depth", "albedo", "bvh-steps", "samples"};
+    constexpr const char* kAovs[] = {"shaded", "normal", "depth", "albedo", "bvh-steps", "guide", "samples"};
     std::ostringstream text;
     text << "seed=" << settings.seed << " bounces=" << settings.bounces
          << " sampler=" << (settings.sampler == Sampler::Sobol ? "sobol" : "independent")

@@ -38,8 +38,8 @@ enum class PathParts { All, Emission, Direct, Indirect };
 enum class Roulette { Throughput, Fixed, None };
 
 // Arbitrary output variables: what a picture shows. The values are those of kAovRadiance ... (shaders/shared/bindings.h). Renders of
-// Normal, Depth, Albedo and BvhSteps end at the camera ray's first hit; SampleCount is known of every film.
-enum class Aov : std::uint32_t { Radiance, Normal, Depth, Albedo, BvhSteps, SampleCount };
+// Normal, Depth, Albedo, BvhSteps and Guide end at the camera ray's first hit; SampleCount is known of every film.
+enum class Aov : std::uint32_t { Radiance, Normal, Depth, Albedo, BvhSteps, Guide, SampleCount };
 
 // Course: Berkeley's CS 184 path tracer, which stops a pixel once 1.96 s / sqrt(n) <= tolerance * mean of luminance. Neighbours: a pixel
 // gets more samples the noisier its neighbours are, relative to their radiance or in absolute terms (allocate_samples.hpp).

@@ -104,7 +104,8 @@ GLIM_CONST uint kAovNormal = 1u;
 GLIM_CONST uint kAovDepth = 2u;
 GLIM_CONST uint kAovAlbedo = 3u;
 GLIM_CONST uint kAovBvhSteps = 4u;  // --view bvh-steps: nodes visited, primitives tested
-GLIM_CONST uint kAovSampleCount = 5u;
+GLIM_CONST uint kAovGuide = 5u;     // --view guide: its mean direction, times how concentrated it is
+GLIM_CONST uint kAovSampleCount = 6u;
 
 GLIM_SHARED_END
 #endif

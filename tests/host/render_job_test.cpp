@@ -172,6 +172,20 @@ TEST(RenderJob, SampleCountersFitThirtyTwoBits)
                   {.place = "--light-samples", .value = "40000", .expected = "32768"});
 }
 
+TEST(RenderJob, TheViewOfTheGuideTakesWhatItIsLearnedWith)
+{
+    const RenderJob job = parse("--view guide --guiding on --bounces 3 --caustics off");
+    EXPECT_EQ(job.settings.aov, Aov::Guide);
+    EXPECT_EQ(job.settings.bounces, 3U);
+    EXPECT_EQ(job.settings.sampleEnd, 4U);
+    EXPECT_EQ(settings("--view guide --guiding on").bounces, settings("").bounces);
+    expectRefused("--view guide", MessageId::Requires, {{}, "--view", "guide", "--guiding on"});
+    expectRefused("--view guide --guiding off", MessageId::Requires, {{}, "--view", "guide", "--guiding on"});
+    expectRefused("--view guide --guiding on --adaptive off", MessageId::Conflict, {.place = "--adaptive", .value = "off"});
+    expectRefused("--view guide --guiding on --image p.png --exposure 1", MessageId::Conflict, {.place = "--exposure", .value = "1"});
+    expectRefused("--view normal --guiding on", MessageId::Conflict, {.place = "--guiding", .value = "on"});
+}
+
 TEST(RenderJob, WhatDoesNotGoTogetherIsRefused)
 {
     using Id = MessageId;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -39,7 +40,8 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
     std::vector<Case> cases(60000);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         Case& c = cases[i];
-        const Aov aov = static_cast<Aov>(i % 6);
+        constexpr std::array kShown{Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo, Aov::BvhSteps, Aov::SampleCount};
+        const Aov aov = kShown[i % kShown.size()];
         c.pixel.count = static_cast<std::uint32_t>(1 + random() % 5000);
         c.pixel.mean = {value(random), value(random), value(random)};
         c.pixel.alpha = random() % 4 == 0 ? 0.0F : unit(random);

@@ -513,7 +513,7 @@ class OptionsTest(PythonCase):
         from glim._render_options import RenderOptions
         hints = typing.get_type_hints(RenderOptions)
         self.assertEqual((hints["spp"], hints["denoise"], hints["clamp_indirect"]), (int, bool, float))
-        self.assertEqual(hints["view"], typing.Literal["shaded", "normal", "depth", "albedo", "bvh-steps"])
+        self.assertEqual(hints["view"], typing.Literal["shaded", "normal", "depth", "albedo", "bvh-steps", "guide"])
         self.assertNotIn("output", hints)
         self.assertNotIn("turntable", hints)
 

@@ -92,6 +92,30 @@ TEST_F(CommandLineGuidingTest, ReplayHasTheBitsOfTheFilm)
     EXPECT_EQ(glm::vec3(radiance.at(0).get<float>(), radiance.at(1).get<float>(), radiance.at(2).get<float>()), expected);
 }
 
+// It is the guide of the render with the same options. In the corner that the camera looks at light paths do not pay.
+TEST_F(CommandLineGuidingTest, TheViewIsOfTheRendersGuide)
+{
+    const auto guideOf = [&](const std::vector<std::string>& more) {
+        GlimCall made;
+        made.arguments = {"render",      sceneFile("cornell_mirror_glass.gltf"),
+                          "--size",      "12x12",
+                          "-o",          "film.exr",
+                          "--guiding",   "on",
+                          "--spp",       "1",
+                          "--look-from", "0.9,1.9,0.9",
+                          "--look-at",   "0.9,2,-1"};
+        made.arguments.insert(made.arguments.end(), more.begin(), more.end());
+        made.folder = folder_.path();
+        const GlimRun run = runGlim(made);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return findSetting(readFilm(folder_ / "film.exr").identity.settings, "guide");
+    };
+    const std::string guide = guideOf({});
+    EXPECT_EQ(guideOf({"--view", "guide"}), guide);
+    EXPECT_NE(guideOf({"--view", "guide", "--caustics", "on"}), guide);
+    EXPECT_NE(guideOf({"--view", "guide", "--bounces", "2"}), guide);
+}
+
 // What is printed of the directions that were sampled with a guide, in text and JSON.
 TEST_F(CommandLineGuidingTest, ReplaySaysWhoChoseADirection)
 {

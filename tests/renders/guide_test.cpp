@@ -1,6 +1,7 @@
 // Path guiding keeps its promises: the same mean, the same bits by any schedule, samples, seed and rows, and less noise where light comes
 // through a gap.
 #include "host/flatten/flatten_scene.hpp"
+#include "host/render/aov.hpp"
 #include "host/render/build_guide.hpp"
 #include "host/render/learn_guide.hpp"
 #include "host/render/replay.hpp"
@@ -164,6 +165,61 @@ TEST(GuideRenderTest, AWrongGuideChangesNoMean)
     settings.seed = 1;
     settings.guide = std::make_shared<const Guide>(buildGuide(records));
     expectSameMean("a wrong guide", renderScene(scene, settings), plain);
+}
+
+// A wall and a floor; the guide knows the directions from the wall to a ball.
+TEST(GuideRenderTest, TheViewShowsDirectionsAndHowConcentratedTheyAre)
+{
+    Random random(11);
+    std::vector<GuideRecord> records = recordsOfBall(200000, random);
+    for (GuideRecord& record : records) {
+        record.normal = encodeDirection({0.0, 0.0, 1.0});
+    }
+    constexpr float kWall = -0.5F, kCamera = 0.7F, kFloor = -0.3F, kTan = 0.5F;
+    SceneBuilder b;
+    const std::uint32_t grey = b.lambert(glm::vec3(0.5F));
+    b.quad({glm::vec3(-9, kFloor, kWall), {9, kFloor, kWall}, {9, 9, kWall}, {-9, 9, kWall}}, grey)
+        .quad({glm::vec3(-9, kFloor, 9), {9, kFloor, 9}, {9, kFloor, kWall}, {-9, kFloor, kWall}}, grey)
+        .perspective({0, 0, kCamera}, {0, 0, 0}, 2.0F * std::atan(kTan));
+    RenderSettings settings = squareSettings(kSide, 1);
+    settings.aov = Aov::Guide;
+    settings.guide = std::make_shared<const Guide>(buildGuide(records));
+    const Film film = renderScene(b.scene(), settings);
+    double cosines = 0.0;
+    int wall = 0, floor = 0;
+    for (std::uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
+        const PixelMoments& shown = film.pixels[pixel];
+        if (shown.normal.y > 0.5F) {
+            EXPECT_EQ(shown.mean, glm::vec3(0.0F));
+            EXPECT_EQ(displayColor(shown, Aov::Guide, {}, {}), Rgb8{});
+            ++floor;
+            continue;
+        }
+        const glm::vec2 film2 = (glm::vec2(pixel % kSide, pixel / kSide) + 0.5F) * 2.0F / static_cast<float>(kSide) - 1.0F;
+        const glm::vec3 point(kTan * (kCamera - kWall) * glm::vec2(film2.x, -film2.y), kWall);
+        const float length = glm::length(shown.mean);
+        cosines += static_cast<double>(glm::dot(shown.mean / length, glm::normalize(glm::vec3(1.6F, 0.3F, -0.4F) - point)));
+        EXPECT_GT(length, 10.0F) << "the ball is less than 1/100 of all directions";
+        ++wall;
+    }
+    std::printf("mean cosine to the ball %.4f\n", cosines / wall);
+    EXPECT_GT(wall, 200);
+    EXPECT_GT(floor, 50);
+    EXPECT_GT(cosines / wall, 0.95);
+}
+
+TEST(GuideRenderTest, TheViewsColoursAreDirectionsByTheirConcentration)
+{
+    const auto colorOf = [](const glm::vec3& mean, float alpha) {
+        PixelMoments pixel{};
+        pixel.mean = mean;
+        pixel.alpha = alpha;
+        return displayColor(pixel, Aov::Guide, {}, {});
+    };
+    EXPECT_EQ(colorOf({8.0F, 0.0F, 0.0F}, 1.0F), (Rgb8{128, 64, 64})) << "three of six bits";
+    EXPECT_EQ(colorOf({0.0F, -4.0F, 0.0F}, 0.5F), (Rgb8{64, 0, 64})) << "half of the pixel";
+    EXPECT_EQ(colorOf({0.0F, 0.0F, 1000.0F}, 1.0F), (Rgb8{128, 128, 255}));
+    EXPECT_EQ(colorOf(glm::vec3(0.0F), 1.0F), Rgb8{});
 }
 
 struct GuidedVertices {

@@ -85,8 +85,8 @@ class RenderOptions(TypedDict, total=False):
     shutter: Tuple[float, float]
     """Motion blur: when the shutter opens and closes, in seconds from the frame [off]"""
 
-    view: Literal["shaded", "normal", "depth", "albedo", "bvh-steps"]
-    """Picture of: shaded, normal, depth, albedo or bvh-steps [shaded]"""
+    view: Literal["shaded", "normal", "depth", "albedo", "bvh-steps", "guide"]
+    """Picture of: shaded, normal, depth, albedo, bvh-steps or guide [shaded]"""
 
     rows: Tuple[int, int]
     """Only rows BEGIN to END - 1 of the picture, for `glim merge`, 0 at the top [all]"""
