@@ -49,6 +49,7 @@ void addPreview(CommandLine& line)
     addAdaptive(command, options->settings);
     addSampler(command, options->settings);
     addLightTransport(command, options->settings);
+    addGuiding(command, options->guiding);
     addCourseEstimators(command, options->settings);
     addCourseRule(command, options->settings);
     addDevice(command, *options);
@@ -71,7 +72,8 @@ void addPreview(CommandLine& line)
     });
     command.onRun([options] {
         preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->camera, options->device, options->pose,
-                 options->field, options->projection, options->lens, options->look, options->settings, options->frames, options->script});
+                 options->field, options->projection, options->lens, options->look, options->settings,
+                 options->guiding == GuidingChoice::On, options->frames, options->script});
         return ExitCode::Done;
     });
 }

@@ -41,6 +41,7 @@ struct Rule {
 bool isOfAov(const PictureOptions& picture) { return picture.settings.aov != Aov::Radiance; }
 bool isOfAovWithoutExposure(const PictureOptions& picture) { return isOfAov(picture) && picture.settings.aov != Aov::Albedo; }
 bool isOfAovWithoutGuide(const PictureOptions& picture) { return isOfAov(picture) && picture.settings.aov != Aov::Guide; }
+bool hasCourseEstimators(const PictureOptions& picture) { return usesCourseEstimators(picture.settings); }
 bool isByCourse(const PictureOptions& picture) { return isCourse(picture.settings.adaptive); }
 bool isNotByCourse(const PictureOptions& picture) { return !isByCourse(picture); }
 bool isByNeighbours(const PictureOptions& picture) { return isNeighbours(picture.settings.adaptive); }
@@ -58,6 +59,7 @@ const Rule<PictureOptions> kPictureRules[] = {
      MessageId::Conflict,
      "has no effect with --view {--view}"},
     {{"--bounces", "--caustics", "--guiding"}, isOfAovWithoutGuide, MessageId::Conflict, "has no effect with --view {--view}"},
+    {{"--guiding"}, hasCourseEstimators, MessageId::Conflict, "the course's estimators have no guide; expected ", "none of them"},
     {{"--exposure"}, isOfAovWithoutExposure, MessageId::Conflict, "has no effect with --view {--view}"},
     {{"--tolerance", "--batch", "--max-spp"},
      isNotByCourse,
@@ -90,7 +92,7 @@ const Rule<PictureOptions> kPictureRules[] = {
      "no --rows"},
 };
 
-bool isOfCourse(const RenderJob& job) { return usesCourseEstimators(job.settings); }
+bool isOfCourse(const RenderJob& job) { return hasCourseEstimators(job); }
 bool isReplay(const RenderJob& job) { return job.replay.has_value(); }
 bool isWithoutCheckpoints(const RenderJob& job) { return !job.checkpoint.isGiven(); }
 bool isWithoutTarget(const RenderJob& job) { return !job.target.isGiven(); }
@@ -112,7 +114,6 @@ const Rule<RenderJob> kRenderRules[] = {
     {{"--focus"}, isReplay, MessageId::Conflict, "expected ", "--focal-distance with the number that the render has printed"},
     {{"--shutter"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--shutter"}, isOfCourse, MessageId::Conflict, "the course's estimators know no time; expected ", "none of them"},
-    {{"--guiding"}, isOfCourse, MessageId::Conflict, "the course's estimators have no guide; expected ", "none of them"},
     {{"--flow"}, isAtRest, MessageId::Requires, "needs a time of an animation; expected ", "--at or --frames"},
     {{"--movie"}, isOnePicture, MessageId::Requires, "is of several pictures; expected ", "--turntable, --frames or --cameras"},
     {{"--movie"}, keepsNoPicture, MessageId::Requires, "is made of pictures, which are kept; expected ", "--image picture.####.png"},

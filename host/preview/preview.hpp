@@ -25,6 +25,7 @@ struct PreviewOptions {
     Lens lens;
     LookOptions look;
     RenderSettings settings;
+    bool guiding = false;                 // by a guide that is learned for each view that rests
     std::optional<std::uint64_t> frames;  // ends after this many pictures
     std::optional<std::filesystem::path> script;
 };

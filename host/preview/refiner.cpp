@@ -13,8 +13,9 @@ constexpr double kPassSeconds = 0.1;
 constexpr std::uint32_t kPortion = 2;
 constexpr double kUncheckedSeconds = 0.02;
 constexpr double kMovingSeconds = 0.03;  // aim for a coarse picture: input, picture and presenting stay below 100 ms together
-constexpr double kAloneSeconds = 1.0;    // time after the last move until the halves are kept that a denoiser needs
-constexpr double kStillSeconds = 0.15;   // time after the last move until the full size is started
+constexpr double kAloneSeconds =
+    1.0;  // time after the last move until the halves are kept that a denoiser needs, and until a guide is learned
+constexpr double kStillSeconds = 0.15;  // time after the last move until the full size is started
 
 RenderSettings startingSettings(RenderSettings settings)
 {
@@ -65,12 +66,23 @@ void Refiner::chooseMovingScale(double seconds)
     }
 }
 
-void Refiner::show(const Camera& camera, const glm::uvec2& size)
+void Refiner::aim(const Camera& camera, const glm::uvec2& size)
 {
     size_ = size;
     camera_ = flatten(camera, size);
     moved_ = Clock::now();
+}
+
+void Refiner::show(const Camera& camera, const glm::uvec2& size)
+{
+    aim(camera, size);
     begin(movingScale_, true);
+}
+
+void Refiner::showWhole(const Camera& camera, const glm::uvec2& size)
+{
+    aim(camera, size);
+    begin(1, false);
 }
 
 void Refiner::begin(std::uint32_t scale, bool fresh)
@@ -115,13 +127,15 @@ bool Refiner::refine(bool paused, const std::function<bool()>& shouldContinue)
     return true;
 }
 
+bool Refiner::isAlone() const { return scale_ == 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kAloneSeconds; }
+
 bool Refiner::keepHalves()
 {
-    const bool isAlone = scale_ == 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kAloneSeconds;
-    if (isAlone) {
-        renderer_.keepHalves();
+    if (!isAlone()) {
+        return false;
     }
-    return isAlone;
+    renderer_.keepHalves();
+    return true;
 }
 
 bool Refiner::isDone() const { return renderer_.plan().isDone() || (settings_.seconds && scale_ == 1 && seconds() >= *settings_.seconds); }

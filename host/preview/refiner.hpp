@@ -24,6 +24,8 @@ public:
     void renew();
     // Starts the picture of this camera in this size. It is coarse at first, since the camera may move on.
     void show(const Camera& camera, const glm::uvec2& size);
+    // The same in full size at once, for a camera that rests.
+    void showWhole(const Camera& camera, const glm::uvec2& size);
     // Works for about 100 ms, but ends earlier once `shouldContinue` returns false or a coarse picture is complete. Returns false if
     // there is nothing to do. If `paused`, it works only while some pixel has no sample.
     bool refine(bool paused, const std::function<bool()>& shouldContinue);
@@ -31,6 +33,8 @@ public:
     // To be called while the picture is refined: keeps the halves of its samples once it has been left alone for a second. Before that they
     // would cost copies that a user who moves has no use for. Returns whether they are kept.
     bool keepHalves();
+    // Whether the picture in full size has been left alone for a second.
+    bool isAlone() const;
 
     // Whether the first picture since show() is still incomplete.
     bool isFresh() const { return fresh_; }
@@ -46,6 +50,7 @@ public:
 
 private:
     static constexpr std::uint32_t kCoarsest = 8;
+    void aim(const Camera& camera, const glm::uvec2& size);
     FlatCamera flatten(const Camera& camera, const glm::uvec2& size) const;
     void chooseMovingScale(double seconds);
     void begin(std::uint32_t scale, bool fresh);

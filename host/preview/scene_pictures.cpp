@@ -8,7 +8,7 @@ void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
 {
     beforeCompiling_();
     auto light = std::make_unique<Refiner>(device_, loaded->prepared, settings_, lens_);
-    leaveSteps();
+    leaveOthers();
     light_ = std::move(light);
     loaded_ = std::move(loaded);
 }
@@ -16,7 +16,7 @@ void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
 void ScenePictures::edit(const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split)
 {
     editScene(loaded_->prepared, loaded_->file, edits, seconds, split);
-    leaveSteps();
+    leaveOthers();
     if (light_->needsKernels()) {
         beforeCompiling_();
     }
@@ -24,9 +24,11 @@ void ScenePictures::edit(const std::vector<Edit>& edits, std::optional<double> s
 }
 
 // They use buffers of light_.
-void ScenePictures::leaveSteps()
+void ScenePictures::leaveOthers()
 {
     steps_.reset();
+    guided_.reset();
+    isGuided_ = false;
     if (layer_ == Aov::BvhSteps) {
         layer_ = Aov::Radiance;
     }
@@ -61,8 +63,21 @@ bool ScenePictures::choose(Aov layer, const Camera& camera, const glm::uvec2& si
     return begins;
 }
 
+void ScenePictures::guide(std::shared_ptr<const Guide> guide, const Camera& camera, const glm::uvec2& size)
+{
+    if (!guided_) {
+        beforeCompiling_();
+    }
+    RenderSettings settings = settings_;
+    settings.guide = std::move(guide);
+    guided_ = std::make_unique<Refiner>(guided_ ? *guided_ : *light_, loaded_->prepared, settings);
+    guided_->showWhole(camera, size);
+    isGuided_ = true;
+}
+
 void ScenePictures::show(const Camera& camera, const glm::uvec2& size)
 {
+    isGuided_ = false;
     if (shown().needsKernels(camera, size)) {
         beforeCompiling_();
     }

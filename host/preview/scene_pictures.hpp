@@ -1,4 +1,4 @@
-// A scene's pictures: one of light, which has most of the layers, and one of BVH steps.
+// A scene's pictures: one of light, which has most of the layers, the same guided, and one of BVH steps.
 #pragma once
 
 #include "host/preview/refiner.hpp"
@@ -39,11 +39,14 @@ public:
 
     // Starts the picture of this camera in this size.
     void show(const Camera& camera, const glm::uvec2& size);
+    // Starts the picture of light anew, by this guide of this camera and size. It goes unguided again with the next show().
+    void guide(std::shared_ptr<const Guide> guide, const Camera& camera, const glm::uvec2& size);
+    bool isGuided() const { return isGuided_; }
     // The picture of the chosen layer.
-    Refiner& shown() const { return layer_ == Aov::BvhSteps ? *steps_ : *light_; }
+    Refiner& shown() const { return layer_ == Aov::BvhSteps ? *steps_ : isGuided_ ? *guided_ : *light_; }
 
 private:
-    void leaveSteps();
+    void leaveOthers();
 
     Device& device_;
     RenderSettings settings_;
@@ -51,7 +54,9 @@ private:
     std::function<void()> beforeCompiling_;
     std::unique_ptr<LoadedScene> loaded_;
     std::unique_ptr<Refiner> light_;
-    std::unique_ptr<Refiner> steps_;  // made when it is first shown; shares light_'s buffers
+    std::unique_ptr<Refiner> steps_;   // made when it is first shown; shares light_'s buffers
+    std::unique_ptr<Refiner> guided_;  // made of the first guide; the same
+    bool isGuided_ = false;
     Aov layer_ = Aov::Radiance;
     bool lightIsStale_ = false;  // the camera has moved since light_ was last shown
 };

@@ -6,6 +6,7 @@
 #include "host/message.hpp"
 #include "host/preview/pick.hpp"
 #include "host/render/check_memory.hpp"
+#include "host/text.hpp"
 #include "host/window/widgets.hpp"
 
 #include <algorithm>
@@ -139,6 +140,7 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     }
     warnIfNoLights(prepared);
     meter_.enter(prepared.scene);
+    learner_.end();
     const bool isFirst = pictures_.isEmpty();
     pictures_.enter(std::move(loaded));
     surface_.reset();
@@ -153,6 +155,7 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
 void Session::edit(const std::vector<Edit>& edits)
 {
     const std::vector<Edit> all = joinEdits(options_.load.edits, edits);
+    learner_.end();
     try {
         pictures_.edit(all, options_.load.at, options_.split);
     } catch (const InputError& error) {
@@ -188,6 +191,7 @@ void Session::followCamera()
 // Begins a new picture with the present camera.
 void Session::show()
 {
+    learner_.cancel();
     pictures_.show(viewpoint_->camera(size()), size());
     begin();
 }
@@ -200,8 +204,34 @@ void Session::begin()
     pacer_.begin();
 }
 
+// Whether the picture is still to begin anew, by a guide that is learned once the view rests.
+bool Session::awaitsGuide() const { return options_.guiding && !pictures_.isGuided() && pictures_.layer() != Aov::BvhSteps; }
+
+// Works on the guide for about a tenth of a second. Returns false if there is nothing to do.
+bool Session::learnGuide()
+{
+    if (hasMoved()) {
+        return false;  // show() comes first
+    }
+    if (const std::shared_ptr<const Guide> guide = learner_.take()) {
+        pictures_.guide(guide, viewpoint_->camera(size()), size());
+        begin();
+        say("guided by " + counted(guide->cells, "cell"));
+        return true;
+    }
+    if (!learner_.isWorking() && awaitsGuide() && !paused_ && pictures_.shown().isAlone()) {
+        announceCompiling();
+        learner_.begin(pictures_.shown().renderer(), pictures_.scene().flat, pictures_.shown().camera());
+        pacer_.change();
+    }
+    return learner_.advance();
+}
+
 bool Session::work()
 {
+    if (learnGuide()) {
+        return true;
+    }
     const auto shouldContinue = [this] { return !isInputWaiting(); };
     const bool denoises = denoises_ && options_.settings.halves && pictures_.layer() == Aov::Radiance;
     const bool worked =
@@ -277,7 +307,8 @@ void Session::reportShown()
 {
     if (!pictures_.isEmpty() && !hasMoved()) {
         const Refiner& picture = pictures_.shown();
-        window_.reportShown(picture.sampleCount(), picture.scale() == 1 && picture.isDone(), handledEvents_);
+        const bool isLast = !awaitsGuide();
+        window_.reportShown(isLast ? picture.sampleCount() : 0, isLast && picture.scale() == 1 && picture.isDone(), handledEvents_);
     }
 }
 
@@ -479,7 +510,11 @@ PanelFigures Session::figures() const
     figures.samples = picture.renderer().plan().sampleCount();
     figures.seconds = picture.seconds();
     figures.samplesPerSecond = picture.samplesPerSecond();
-    figures.state = paused_ ? "paused" : picture.isDone() && picture.scale() == 1 ? "done" : "";
+    figures.state = paused_                                    ? "paused"
+                    : learner_.isWorking()                     ? "learning a guide"
+                    : picture.isDone() && picture.scale() == 1 ? "done"
+                    : pictures_.isGuided()                     ? "guided"
+                                                               : "";
     figures.errors = meter_.errors();
     figures.canDenoise = options_.settings.halves;
     figures.denoising = denoises_ ? describe(denoiser_) : std::vector<std::string>{};

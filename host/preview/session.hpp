@@ -3,6 +3,7 @@
 
 #include "host/clock.hpp"
 #include "host/preview/film_meter.hpp"
+#include "host/preview/guide_learner.hpp"
 #include "host/preview/idle_denoiser.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
@@ -47,6 +48,8 @@ private:
     void show();
     void begin();
     bool work();
+    bool awaitsGuide() const;
+    bool learnGuide();
     const IdleDenoiser::Result* shownDenoised() const;
     const StorageImage& shownPicture() const;
     void drawDenoised(const IdleDenoiser::Result& denoised);
@@ -84,6 +87,7 @@ private:
     PictureWriter writer_;
 
     ScenePictures pictures_;
+    GuideLearner learner_;
     std::optional<Viewpoint> viewpoint_;  // absent until there is a scene
     IdleDenoiser denoiser_;
     bool denoises_ = true;

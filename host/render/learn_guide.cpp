@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace glim {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr double kLearningPixels = 16384.0;
 constexpr std::uint32_t kSamples = 4;  // of a pixel, in a portion
 constexpr std::uint32_t kPasses = 5;   // each has twice the portions of the one before, and is guided by what that has learned
+constexpr std::uint32_t kPathsBetweenPauses = 8192;  // a twentieth of a second on two cores; no guide depends on it
 // No film has these samples, so no picture is guided by what its own samples have met.
 constexpr std::uint32_t kFirstLearningSample = 0x80000000U;
 
@@ -34,12 +36,14 @@ RenderSettings learningSettings(const RenderSettings& settings)
 
 class Learner {
 public:
-    explicit Learner(RenderResources& resources)
+    explicit Learner(RenderResources& resources, const LearningPause& pause = nullptr)
         : resources_(resources),
-          capacity_(std::min(resources_.paths().capacity(), resources_.guide->recordedPaths()))
+          pause_(pause),
+          capacity_(std::min({resources_.paths().capacity(), resources_.guide->recordedPaths(), pause ? kPathsBetweenPauses : ~0U}))
     {}
 
-    Guide learn()
+    // Nothing if a pause has ended it.
+    std::optional<Guide> learn()
     {
         const auto start = Clock::now();
         Guide guide = emptyGuide();
@@ -49,9 +53,17 @@ public:
             tile_ = resources_.makeTile(0, resources_.settings.pixelCount());
             records_.clear();
             for (std::uint32_t portion = 0; portion < 1U << pass; ++portion, sample += kSamples) {
-                trace(sample);
+                if (!trace(sample)) {
+                    return std::nullopt;
+                }
+            }
+            if (!goesOn(false)) {
+                return std::nullopt;
             }
             guide = buildGuide(records_);
+            if (!goesOn(true)) {
+                return std::nullopt;
+            }
         }
         guide.paths = std::uint64_t{sample - kFirstLearningSample} * resources_.settings.pixelCount();
         guide.seconds = secondsSince(start);
@@ -59,10 +71,15 @@ public:
     }
 
 private:
-    void trace(std::uint32_t sample)
+    bool goesOn(bool needsDevice) const { return !pause_ || pause_(needsDevice); }
+
+    bool trace(std::uint32_t sample)
     {
         const std::uint32_t pixels = resources_.settings.pixelCount(), atOnce = std::max(1U, capacity_ / kSamples);
         for (std::uint32_t first = 0; first < pixels; first += atOnce) {
+            if (!goesOn(true)) {
+                return false;
+            }
             Pass pass = tile_->pass();
             pass.firstPixel = first;
             pass.pixelCount = std::min(atOnce, pixels - first);
@@ -76,9 +93,11 @@ private:
             std::copy_if(records.begin(), records.end(), std::back_inserter(records_),
                          [](const GuideRecord& record) { return record.throughput > 0.0F; });
         }
+        return true;
     }
 
     RenderResources& resources_;
+    const LearningPause& pause_;
     const std::uint32_t capacity_;
     std::unique_ptr<Tile> tile_;
     std::vector<GuideRecord> records_;
@@ -96,18 +115,19 @@ void refuseSlowCompiler(const DeviceDescription& device)
 }  // namespace
 
 std::shared_ptr<const Guide> learnGuide(const Renderer& renderer, const FlatScene& scene, const FlatCamera& camera,
-                                        const RenderSettings& settings)
+                                        const RenderSettings& settings, const LearningPause& pause)
 {
     refuseSlowCompiler(renderer.resources().device.description());
     RenderResources resources(renderer.resources(), scene, camera, learningSettings(settings));
-    return std::make_shared<const Guide>(Learner(resources).learn());
+    std::optional<Guide> guide = Learner(resources, pause).learn();
+    return guide ? std::make_shared<const Guide>(*std::move(guide)) : nullptr;
 }
 
 std::shared_ptr<const Guide> learnGuide(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
 {
     refuseSlowCompiler(device.description());
     RenderResources resources(device, scene, camera, learningSettings(settings));
-    return std::make_shared<const Guide>(Learner(resources).learn());
+    return std::make_shared<const Guide>(*Learner(resources).learn());
 }
 
 }  // namespace glim
