@@ -35,6 +35,8 @@ TEST(CommittedScenes, LoadWithNoSurprises)
         {"furnace.gltf", {12, 0, 0, 1, 0}},
         {"closed_room.gltf", {38, 0, 0, 1, 0}},
         {"shaded_lamp.gltf", {1364, 0, 0, 1, 0}},
+        {"door_ajar.gltf", {62, 0, 0, 1, 0}},
+        {"mirror_room.gltf", {38, 1, 0, 1, 0}},
         {"veach_mis.gltf", {12, 5, 0, 1, 0}},
         {"many_lights.gltf", {1646, 256, 0, 1, 0}},
         {"materials.gltf", {1458, 34, 0, 1, 0}},

@@ -95,13 +95,16 @@ def light_directional():
                      matrix=look_at((-3.0, 4.0, 0.0), (0.0, 0.0, 0.0)))
 
 
+def inside(points, indices):
+    """A room, of a solid's faces seen from within."""
+    return points, [indices[i + k] for i in range(0, len(indices), 3) for k in (0, 2, 1)]
+
+
 def furnace():
     document = Document()
     wall = document.material("wall", (0.5, 0.5, 0.5), emission=(0.5, 0.5, 0.5))
     document.camera("inside", (0.1, 0.2, 0.7), (-0.3, 0.0, -1.0), 70.0, 1.0)
-    points, indices = block((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
-    inward = [indices[i + k] for i in range(0, len(indices), 3) for k in (0, 2, 1)]
-    document.shape("room", points, inward, wall)
+    document.shape("room", *inside(*block((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))), wall)
     return document
 
 
@@ -143,6 +146,41 @@ def shaded_lamp():
             for radius, height in ((0.36, 1.6), (0.16, 1.84)) for i in range(sides)]
     shade = [k for i in range(sides) for j in [(i + 1) % sides] for k in (i, sides + i, j, j, sides + i, sides + j)]
     document.shape("shade", rims, shade, document.material("felt", (0.35, 0.3, 0.25), double_sided=True))
+    return document
+
+
+def door_ajar():
+    """Two rooms of 4 x 3 x 4 m. The wall between them has a slit of 12 cm, 2 m high; the lamp is in the one, the camera in the other."""
+    document = Document()
+    grey, h = document.material("grey", (0.7, 0.7, 0.7)), 0.06
+    document.camera("dark room", (0.4, 1.5, 0.4), (3.2, 1.0, 3.2), math.degrees(1.2), 1.0)
+    document.shape("rooms", *inside(*block((0.0, 0.0, 0.0), (8.1, 3.0, 4.0))), grey)
+    for name, low, high in (("wall", (4.0, 0.0, 0.0), (4.1, 3.0, 2.0 - h)), ("door", (4.0, 0.0, 2.0 + h), (4.1, 3.0, 4.0)),
+                            ("lintel", (4.0, 2.0, 2.0 - h), (4.1, 3.0, 2.0 + h)), ("box", (1.2, 0.0, 2.4), (2.0, 0.8, 3.2))):
+        document.shape(name, *block(low, high), grey)
+    document.quad("lamp", [[5.6, 2.95, 1.5], [6.6, 2.95, 1.5], [6.6, 2.95, 2.5], [5.6, 2.95, 2.5]],
+                  document.material("lamp", emission=(10.0, 10.0, 10.0)))
+    return document
+
+
+def mirror_room():
+    """A closed room. Its lamp, in a tube, shines on a mirror alone, which lights what the camera sees."""
+    document = Document()
+    white, ochre = document.material("white", WHITE), document.material("ochre", (0.75, 0.52, 0.16))
+    document.camera("corner", (-1.7, 1.5, -1.6), (0.3, 0.6, 1.6), 62.0, 1.0)
+    document.shape("room", *inside(*block((-2.0, 0.0, -2.2), (2.0, 2.6, 2.2))), white)
+    document.quad("mirror", [[-1.3, 0.2, -2.19], [1.3, 0.2, -2.19], [1.3, 2.4, -2.19], [-1.3, 2.4, -2.19]],
+                  document.material("mirror", (0.9, 0.9, 0.9), metallic=1.0, roughness=0.0))
+    place, r, length, h = look_at((0.0, 2.35, 0.9), (0.0, 1.3, -2.19)), 0.2, 1.2, 0.18
+    tube = [[x, y, z] for z in (0.02, -length) for x, y in ((-r, -r), (r, -r), (r, r), (-r, r))]
+    faces = [(0, 1, 2, 3)] + [(i, 4 + i, 4 + (i + 1) % 4, (i + 1) % 4) for i in range(4)]
+    document.shape("tube", tube, [k for a, b, c, d in faces for k in (a, b, c, a, c, d)],
+                   document.material("black", double_sided=True), matrix=place)
+    document.shape("lamp", [[-h, -h, 0.0], [-h, h, 0.0], [h, h, 0.0], [h, -h, 0.0]], [0, 1, 2, 0, 2, 3],
+                   document.material("lamp", emission=(1200.0, 1050.0, 850.0)), matrix=place)
+    points, indices = block((-0.3, 0.0, -0.3), (0.3, 0.7, 0.3))
+    document.shape("box", turn(points, 25.0, (0.9, 0.0, 1.3)), indices, ochre)
+    document.sphere("ball", (-0.3, 0.35, 1.5), 0.35, white)
     return document
 
 
@@ -197,4 +235,4 @@ def many_lights():
 
 SMALL_SCENES = {**MATERIAL_SCENES, **{function.__name__: function for function in (
     cornell, cornell_spheres, cornell_mirror_glass, cornell_gems, light_point, light_spot, light_directional, furnace,
-    closed_room, shaded_lamp, veach_mis, many_lights, showcase)}}
+    closed_room, shaded_lamp, door_ajar, mirror_room, veach_mis, many_lights, showcase)}}
