@@ -10,6 +10,7 @@ import subprocess
 import time
 
 from farm_fixture import GLIM, LONG, SCENE, SIZE, SPP, WAIT_SECONDS, FarmCase, SchedulerCase, main, wait_until
+from render_farm.exr_header import read_film_header
 
 SLOW = "time.sleep(.3)"
 
@@ -57,6 +58,20 @@ class LocalTest(FarmCase):
         child = int(os.readlink(self.path("claim-load")))
         self.assertFalse(os.path.exists("/proc/%d" % child), "the child of a dead worker lives")
         self.expect_whole()
+
+    def test_workers_that_learn_a_guide_die(self):
+        """Each worker learns the guide that one render learns: one dies with it, and another learns it again."""
+        guiding, spp = ("--guiding", "on"), 4 * 256
+        mishap = """
+            if claim(FOLDER, "first"):
+                page.start()
+                time.sleep(.2)
+                os.kill(page.worker, signal.SIGKILL)
+                time.sleep(600)"""
+        said = self.finish(self.start_farm("--local", "2", *guiding, glim=self.program(mishap), spp=spp))
+        self.assertEqual(said.count("is gone"), 1, said)
+        self.expect_whole(spp, *guiding)
+        self.assertIn("guide=", read_film_header(self.out).settings)
 
     def test_driver_ends_in_many_ways(self):
         """A task that fails everywhere, a full disk, SIGINT, SIGHUP, SIGKILL and a damaged folder: the same command goes on."""

@@ -67,14 +67,14 @@ def wait_until(condition, what):
         time.sleep(0.05)
 
 
-def digest_of_one_render(spp, cache={}):
-    if spp not in cache:
+def digest_of_one_render(spp, *more, cache={}):
+    if (spp, more) not in cache:
         with tempfile.TemporaryDirectory() as folder:
             film = os.path.join(folder, "one.exr")
-            subprocess.run([GLIM, "render", SCENE, "-o", film, "--samples", "0:%d" % spp, "--size", SIZE], check=True,
-                           stdout=subprocess.DEVNULL)
-            cache[spp] = read_film_header(film).digest
-    return cache[spp]
+            subprocess.run([GLIM, "render", SCENE, "-o", film, "--samples", "0:%d" % spp, "--size", SIZE, *more],
+                           check=True, stdout=subprocess.DEVNULL)
+            cache[spp, more] = read_film_header(film).digest
+    return cache[spp, more]
 
 
 class FarmCase(unittest.TestCase):
@@ -141,11 +141,11 @@ class FarmCase(unittest.TestCase):
                        check=True, stderr=subprocess.DEVNULL)
         return ["--tls-ca", self.path(name + ".pem"), "--tls-cert", self.path(name + ".pem"), "--tls-key", self.path(name + ".key")]
 
-    def expect_whole(self, spp=SPP):
+    def expect_whole(self, spp=SPP, *more):
         """The bits of one render, of each sample once, and nothing left over."""
         header = read_film_header(self.out)
         self.assertEqual(header.samples, "0:%d" % spp)
-        self.assertEqual(header.digest, digest_of_one_render(spp))
+        self.assertEqual(header.digest, digest_of_one_render(spp, *more))
         self.assertFalse(os.path.exists(self.out + ".farm"))
 
 
