@@ -19,6 +19,9 @@ set(onlyInCi
     GuideRenderTest.HasTheSameMeanAndLessNoiseBehindADoor
     GuideRenderTest.HasTheSameMeanWithEveryLobe
     GuideRenderTest.AWrongGuideChangesNoMean
+    GuideAdversaryTest.LightByWayOfAMirrorAlone
+    GuideAdversaryTest.ManyEmittersBehindADoor
+    Lamps/HiddenLampTest.*
     CommandLineGuidingTest.KilledItGoesOnWithTheSameBits
     Lights/MirroredLightTest.*
     Places/DirectLightTest.*
@@ -215,6 +218,7 @@ set(byDefault
     Scenes/GoldenTest.AgreesWithTheLongRender/materials
     Scenes/GoldenTest.AgreesWithTheLongRender/textures
     Scenes/GoldenTest.AgreesWithTheLongRender/veach_mis
+    Lamps/HiddenLampTest.ShinesThoughItWasDarkToTheGuide/point
     Ways/PathPartsTest.AddUpToAll/bsdf
     Ways/SidesTest.EstimatorsOfDirectLightAgree/bsdf
     BenchTest.ChoosesAPowerOfTwoThatTakesAboutAsLong

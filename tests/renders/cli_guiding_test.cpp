@@ -22,7 +22,7 @@ protected:
     GlimCall call(const std::vector<std::string>& arguments) const
     {
         GlimCall call;
-        call.arguments = {"render", sceneFile("cornell.gltf"), "--size", "12x12"};
+        call.arguments = {"render", sceneFile(scene_), "--size", "12x12"};
         call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
         call.folder = folder_.path();
         return call;
@@ -36,6 +36,7 @@ protected:
     std::string digestOf(const char* film) const { return computeDigest(readFilm(folder_ / film)); }
 
     ScratchFolder folder_;
+    std::string scene_ = "cornell.gltf";
 };
 
 TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
@@ -72,6 +73,20 @@ TEST_F(CommandLineGuidingTest, PartsAreMergedToTheBitsOfOneRun)
     EXPECT_EQ(guide.at("digest").get<std::string>(), findSetting(readFilm(folder_ / "whole.exr").identity.settings, "guide"));
     EXPECT_GT(guide.at("cells").get<int>(), 0);
     EXPECT_GT(guide.at("paths").get<int>(), 0);
+}
+
+// A ball slides away, and takes its shadow with it.
+TEST_F(CommandLineGuidingTest, FramesLearnWhatTheyLearnAlone)
+{
+    scene_ = "product.gltf";
+    run({"-o", "frame#.exr", "--spp", "64", "--guiding", "on", "--frames", "0:1", "--fps", "1"});
+    std::vector<std::string> guides;
+    for (const std::string second : {"0", "1"}) {
+        run({"-o", "alone.exr", "--spp", "64", "--guiding", "on", "--at", second});
+        EXPECT_EQ(digestOf(("frame" + second + ".exr").c_str()), digestOf("alone.exr")) << second << " s";
+        guides.push_back(findSetting(readFilm(folder_ / "alone.exr").identity.settings, "guide"));
+    }
+    EXPECT_NE(guides[0], guides[1]);
 }
 
 TEST_F(CommandLineGuidingTest, NoFilmGoesOnWithoutItsGuide)
