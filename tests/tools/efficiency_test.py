@@ -66,6 +66,25 @@ class EstimatesTest(unittest.TestCase):
         self.assertIsNotNone(found["samples"]["value"])
 
 
+class RelativeErrorTest(unittest.TestCase):
+    def test_weights_are_of_the_square_around(self):
+        picture = np.random.default_rng(1).random((9, 7, 3))
+        weights = estimates.weights_around(picture)
+        np.testing.assert_allclose(weights[4, 3], picture[2:7, 1:6].mean(axis=(0, 1)) ** -2)
+        rows, columns = np.ix_([2, 1, 0, 1, 2], [2, 1, 0, 1, 2])
+        np.testing.assert_allclose(weights[0, 0], picture[rows, columns].mean(axis=(0, 1)) ** -2)
+        picture[:6, :6] = 0
+        self.assertEqual(estimates.weights_around(picture)[2, 2].tolist(), [0, 0, 0])
+
+    def test_two_renders_differ_by_twice_the_variance(self):
+        renders, weights = 2 * noisy(np.random.default_rng(1), .1)[:2], np.full((HEIGHT, WIDTH, 3), .25)
+        found = estimates.relmse_of(renders, weights)
+        self.assertAlmostEqual(found["value"], np.mean((renders[0] - renders[1]) ** 2 / 2 / 4))
+        # 6,240 squares of one degree of freedom: 1.8 %.
+        self.assertAlmostEqual(found["value"], .01, delta=.08 * .01)
+        self.assertTrue(found["low"] < found["value"] < found["high"] < 1.3 * found["low"], found)
+
+
 class TurnsTest(unittest.TestCase):
     def test_what_does_not_grow_with_samples_cancels(self):
         clock = np.zeros(2)

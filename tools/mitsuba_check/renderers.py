@@ -121,7 +121,7 @@ class Glim:
     def __init__(self, options, folder, program, driver=None):
         self.options, self.folder, self.program, self.driver = options, folder, program, driver
         self.device, self.stats = None, None
-        self.two_sided = two_sided(program)
+        self.two_sided, self.more = two_sided(program), []
 
     def render(self, seed, spp):
         """The path of the picture."""
@@ -130,7 +130,7 @@ class Glim:
             if os.path.exists(path):
                 os.remove(path)
         options = self.options
-        more = self.two_sided + ([] if options.environment is None else ["--environment", text_of(options.environment)])
+        more = self.two_sided + self.more + ([] if options.environment is None else ["--environment", text_of(options.environment)])
         run_glim(self.program, "render", options.scene, "-o", exr, "--stats", stats, "--size", "%dx%d" % options.size, "--progress",
                  "none", "--spp", str(spp), "--seed", str(seed), "--bounces", str(options.bounces), *more, driver=self.driver)
         if not (os.path.exists(exr) and os.path.exists(stats)):

@@ -16,6 +16,14 @@ def weights_of(reference):
     return 1 / (reference ** 2 + EPSILON)
 
 
+def weights_around(picture, side=5):
+    """1 / mean^2 of the square around each pixel, mirrored at the edges; 0 where that is black. For the dark, where EPSILON hides errors."""
+    reach = side // 2
+    padded = np.pad(picture, ((reach, reach), (reach, reach), (0, 0)), mode="reflect")
+    means = np.lib.stride_tricks.sliding_window_view(padded, (side, side), axis=(0, 1)).mean(axis=(-2, -1))
+    return np.divide(1, means ** 2, out=np.zeros_like(means), where=means > 0)
+
+
 def tile_errors(renders, weights):
     """The squared errors of each seed, summed over each tile: seed x tile. Their expectations are the variance between seeds."""
     seeds = len(renders)
@@ -35,6 +43,14 @@ def draws(source, count):
 def with_reach(value, resampled):
     low, high = np.quantile(resampled, (0.025, 0.975))
     return {"value": float(value), "low": float(low), "high": float(high)}
+
+
+def relmse_of(renders, weights):
+    """With two renders half of their squared difference."""
+    source, errors, pixels = np.random.default_rng(1), tile_errors(renders, weights), pixels_of_tiles(*renders.shape[1:3])
+    tiles = draws(source, len(pixels))
+    drawn = ((draws(source, len(renders)) @ errors) * tiles).sum(axis=1) / (len(renders) * (tiles @ pixels))
+    return with_reach(errors.sum() / (len(renders) * pixels.sum()), drawn)
 
 
 def spread(values):

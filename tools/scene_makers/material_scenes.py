@@ -256,18 +256,15 @@ def sun_glass():
     return document
 
 
-def sun_water():
-    """The inside of a pool under a small sun. The camera is in the water and does not see its surface."""
-    document = Document()
-    document.camera("diver", (0.0, -0.35, 1.2), (0.0, -1.2, -0.5), 50.0, 1.0)
-    light_by_sun(document)
+def pool(document, **volume):
+    """Filled with water, with a ball in it."""
     tiles = document.material("tiles", (0.55, 0.65, 0.68), double_sided=True)
     h, depth, w = 1.5, 1.2, 1.51  # the water ends within the walls
     corners = [[x, y, z] for y in (-depth, 0.1) for x, z in ((-h, h), (h, h), (h, -h), (-h, -h))]
     document.shape("pool", corners,
                    [0, 1, 2, 0, 2, 3, 3, 2, 6, 3, 6, 7, 0, 3, 7, 0, 7, 4, 2, 1, 5, 2, 5, 6, 1, 0, 4, 1, 4, 5], tiles)
     document.sphere("ball", (0.3, -0.95, -0.5), 0.25, document.material("rubber", (0.75, 0.3, 0.15)))
-    water = document.surface_material("water", roughness=0.0, extensions=solid(1.33, (0.6, 0.85, 0.9), 3.0))
+    water = document.surface_material("water", roughness=0.0, extensions=solid(1.33, **volume))
     def wave(s, t):
         x, z = 2.0 * w * (s - 0.5), 2.0 * w * (0.5 - t)
         return [x, 0.012 * math.sin(7.1 * x + 2.3 * z) + 0.01 * math.sin(3.7 * x - 8.9 * z + 1.0) + 0.006 * math.sin(13.0 * z + 4.0 * x), z]
@@ -281,6 +278,24 @@ def sun_water():
     bottom = rectangle((-w, low, -w), (2.0 * w, 0.0, 0.0), (0.0, 0.0, 2.0 * w))
     sides = [side((0.0, 0.0), (1.0, 0.0)), side((1.0, 0.0), (1.0, 1.0)), side((1.0, 1.0), (0.0, 1.0)), side((0.0, 1.0), (0.0, 0.0))]
     document.small_surface("water", joined([top, bottom, *sides]), water, uv=False)
+
+
+def sun_water():
+    """The inside of a pool under a small sun. The camera is in the water and does not see its surface."""
+    document = Document()
+    document.camera("diver", (0.0, -0.35, 1.2), (0.0, -1.2, -0.5), 50.0, 1.0)
+    light_by_sun(document)
+    pool(document, attenuation=(0.6, 0.85, 0.9), distance=3.0)
+    return document
+
+
+def lamp_water():
+    """The same pool of clear water under a lamp, seen from above. It is not committed: tests/bench/guiding_peers.py renders it."""
+    document = Document()
+    document.camera("edge", (0.0, 1.3, 1.9), (0.0, -0.9, -0.3), 50.0, 1.0)
+    h = 0.25
+    document.quad("lamp", [[-h, 2.0, -h], [h, 2.0, -h], [h, 2.0, h], [-h, 2.0, h]], document.material("lamp", emission=(60.0, 55.0, 45.0)))
+    pool(document)
     return document
 
 
