@@ -144,23 +144,37 @@ public:
 
     bool operator()(const RenderProgress& now)
     {
+        return goesOn([&] {
+            if (!progress_.is_none()) {
+                progress_(now.samples, now.totalSamples, now.seconds);
+            }
+        });
+    }
+
+    // Before the first sample.
+    bool goesOn()
+    {
+        return goesOn([] {});
+    }
+
+    std::exception_ptr failure() const { return failure_; }
+
+private:
+    template <class Call>
+    bool goesOn(Call call)
+    {
         const nb::gil_scoped_acquire gil;
         try {
             if (PyErr_CheckSignals() != 0) {
                 throw nb::python_error();
             }
-            if (!progress_.is_none()) {
-                progress_(now.samples, now.totalSamples, now.seconds);
-            }
+            call();
         } catch (const nb::python_error&) {
             failure_ = std::current_exception();
         }
         return !failure_;
     }
 
-    std::exception_ptr failure() const { return failure_; }
-
-private:
     nb::object progress_;
     std::exception_ptr failure_;
 };
@@ -245,7 +259,11 @@ private:
             warnIfNoLights(session->prepared());
         }
         session->denoiser().open(options);
-        const PictureFrame frame = framePicture(*session, options);
+        const PictureFrame frame = framePicture(*session, options, [&](const LearningPause&) { return watcher.goesOn(); });
+        if (watcher.failure()) {
+            keep(std::move(session), std::move(rayKernels));
+            return nullptr;
+        }
         if (resumed != nullptr) {
             if (const std::optional<Message> difference = findOther(resumed->film(), *session, frame, options)) {
                 throw InputError(Message(*difference, {"the film cannot be resumed: ", difference->sentence, "."}));

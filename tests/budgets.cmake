@@ -22,6 +22,8 @@ set(onlyInCi
     GuideAdversaryTest.LightByWayOfAMirrorAlone
     GuideAdversaryTest.ManyEmittersBehindADoor
     Lamps/HiddenLampTest.*
+    NoiseTest.AGuidePaysBehindADoor
+    CommandLineGuidingTest.AutoSaysWhatItGains
     CommandLineGuidingTest.KilledItGoesOnWithTheSameBits
     Lights/MirroredLightTest.*
     Places/DirectLightTest.*

@@ -49,7 +49,7 @@ void addPreview(CommandLine& line)
     addAdaptive(command, options->settings);
     addSampler(command, options->settings);
     addLightTransport(command, options->settings);
-    addGuiding(command, options->guiding);
+    addGuidingAtRest(command, options->guiding);
     addCourseEstimators(command, options->settings);
     addCourseRule(command, options->settings);
     addDevice(command, *options);

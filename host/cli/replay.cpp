@@ -369,8 +369,9 @@ void runReplay(const RenderJob& options)
     if (options.caustics == CausticsChoice::Auto) {
         settings.caustics = choosesLightPaths(device, prepared.flat, flatCamera, settings);
     }
-    if (options.guiding == GuidingChoice::On) {
-        settings.guide = learnGuide(device, prepared.flat, flatCamera, settings);
+    if (options.guiding != GuidingChoice::Off) {
+        const GuideUse use = options.guiding == GuidingChoice::On ? GuideUse::Always : GuideUse::IfItPays;
+        settings.guide = learnGuide(device, prepared.flat, flatCamera, settings, use).guide;
     }
     Replay replay(device, prepared.flat, flatCamera, settings);
     const SamplePlace& place = *options.replay;

@@ -140,7 +140,13 @@ void addCaustics(OptionTable& table, CausticsChoice& caustics)
 
 void addGuiding(OptionTable& table, GuidingChoice& guiding)
 {
-    addEnum(table, "--guiding", "G", "Path guiding, learned before the picture: on or off [off]", {"off", "on"}, guiding);
+    addEnum(table, "--guiding", "G", "Path guiding, learned before the picture: on, off or auto, where it pays [off]",
+            {"off", "on", "auto"}, guiding);
+}
+
+void addGuidingAtRest(OptionTable& table, GuidingChoice& guiding)
+{
+    addEnum(table, "--guiding", "G", "Path guiding, learned once the view rests: on or off [off]", {"off", "on"}, guiding);
 }
 
 void addCourseEstimators(OptionTable& table, RenderSettings& settings)

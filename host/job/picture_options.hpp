@@ -16,7 +16,7 @@
 namespace glim {
 
 enum class CausticsChoice { Off, On, Auto };
-enum class GuidingChoice { Off, On };
+enum class GuidingChoice { Off, On, Auto };
 
 struct PictureOptions {
     std::filesystem::path scene;
@@ -67,6 +67,7 @@ void addFocus(OptionTable& table, std::optional<glm::uvec2>& pixel);
 void addLightTransport(OptionTable& table, RenderSettings& settings);
 void addCaustics(OptionTable& table, CausticsChoice& caustics);
 void addGuiding(OptionTable& table, GuidingChoice& guiding);
+void addGuidingAtRest(OptionTable& table, GuidingChoice& guiding);
 void addCourseEstimators(OptionTable& table, RenderSettings& settings);
 void addDevice(OptionTable& table, PictureOptions& options);
 

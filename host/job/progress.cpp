@@ -87,6 +87,22 @@ void ProgressPrinter::print(const RenderProgress& progress, const std::optional<
     }
 }
 
+void ProgressPrinter::printLearning(double done, double seconds)
+{
+    if (style_ == ProgressStyle::None || seconds - last_ < kInterval || !takesMore(STDERR_FILENO)) {
+        return;
+    }
+    last_ = seconds;
+    try {
+        const std::string text = style_ == ProgressStyle::Bar
+                                     ? "\r\033[K" + fitBar(barOf(done) + " learning where light comes from", columnsOf(STDERR_FILENO))
+                                     : Json{{"picture", place_.index + 1}, {"pictures", place_.count}, {"learned", done}}.dump() + '\n';
+        std::fwrite(text.data(), 1, text.size(), stderr);
+    } catch (const std::exception&) {
+        // No memory: a later line may succeed.
+    }
+}
+
 void ProgressPrinter::write(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint) const
 {
     const ProgressEstimate estimate = estimateProgress(progress, timeLimit_);
@@ -105,15 +121,20 @@ std::optional<double> ProgressPrinter::estimateAll(const RenderProgress& progres
     return *estimate.remaining + perPicture * static_cast<double>(place_.count - place_.index - 1);
 }
 
-std::string ProgressPrinter::formatBar(const RenderProgress& progress, const ProgressEstimate& estimate) const
+std::string ProgressPrinter::barOf(double share) const
 {
     const std::string picture =
         place_.count > 1 ? "picture " + std::to_string(place_.index + 1) + " of " + std::to_string(place_.count) + " " : "";
-    const auto filled = static_cast<std::size_t>(estimate.share * kBarWidth);
+    const auto filled = static_cast<std::size_t>(share * kBarWidth);
+    return picture + '[' + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + format("] %3.0f %% ", 100.0 * share);
+}
+
+std::string ProgressPrinter::formatBar(const RenderProgress& progress, const ProgressEstimate& estimate) const
+{
     const auto all = estimateAll(progress, estimate);
-    return picture + '[' + std::string(filled, '#') + std::string(kBarWidth - filled, '.') +
-           format("] %3.0f %%  %.3g samples/pixel  %.3g Msamples/s  ETA ", 100.0 * estimate.share,
-                  static_cast<double>(progress.samples) / static_cast<double>(pixels_), 1e-6 * rate(progress)) +
+    return barOf(estimate.share) +
+           format(" %.3g samples/pixel  %.3g Msamples/s  ETA ", static_cast<double>(progress.samples) / static_cast<double>(pixels_),
+                  1e-6 * rate(progress)) +
            (all ? format("%.0f s", *all) : "unknown");
 }
 

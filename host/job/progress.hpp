@@ -46,6 +46,8 @@ public:
     // Prints at most ten times a second, and not while stderr takes nothing (a terminal that is stopped, a pipe that is full). Never
     // throws.
     void print(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint = {});
+    // The same, of what comes before the picture's samples: a guide is learned. `done` is in [0, 1].
+    void printLearning(double done, double seconds);
     // Removes the bar.
     void finish();
 
@@ -53,6 +55,7 @@ private:
     void write(const RenderProgress& progress, const std::optional<WrittenCheckpoint>& checkpoint) const;
     // Seconds to the end of the last picture.
     std::optional<double> estimateAll(const RenderProgress& progress, const ProgressEstimate& estimate) const;
+    std::string barOf(double share) const;
     std::string formatBar(const RenderProgress& progress, const ProgressEstimate& estimate) const;
     std::string toJson(const RenderProgress& progress, const ProgressEstimate& estimate,
                        const std::optional<WrittenCheckpoint>& checkpoint) const;

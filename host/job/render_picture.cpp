@@ -17,7 +17,7 @@
 
 namespace glim {
 
-PictureFrame framePicture(SceneSession& session, const RenderJob& options)
+PictureFrame framePicture(SceneSession& session, const RenderJob& options, const LearningObserver& observer)
 {
     const Camera camera = makeCamera(session.prepared().scene, options);
     RenderSettings settings = settingsFor(options, camera);
@@ -38,12 +38,15 @@ PictureFrame framePicture(SceneSession& session, const RenderJob& options)
         shaded.aov = settings.aov == Aov::Guide ? Aov::Radiance : settings.aov;  // whose guide is shown
         settings.caustics = session.choosesLightPaths(flatCamera, shaded);
     }
-    if (options.guiding == GuidingChoice::On) {
-        settings.guide = session.learnGuide(flatCamera, settings);
+    LearnedGuide learned;
+    if (options.guiding != GuidingChoice::Off) {
+        const GuideUse use = options.guiding == GuidingChoice::On ? GuideUse::Always : GuideUse::IfItPays;
+        learned = session.learnGuide(flatCamera, settings, use, observer);
+        settings.guide = learned.guide;
     }
     return {flatCamera, settings,
             describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),
-            camera.projection.crop};
+            camera.projection.crop, learned.gain};
 }
 
 void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame)

@@ -16,13 +16,14 @@ namespace glim {
 struct PictureFrame {
     FlatCamera camera;
     RenderSettings settings;
-    std::string description;   // of the camera (film_camera.hpp)
-    std::optional<Crop> crop;  // of the picture
+    std::string description;          // of the camera (film_camera.hpp)
+    std::optional<Crop> crop;         // of the picture
+    std::optional<double> guideGain;  // as measured, if --guiding is auto
 };
 
 // The session must be posed at the picture's time. Throws InputError for a camera that the scene lacks and for a picture that the device
-// has no memory for.
-PictureFrame framePicture(SceneSession& session, const RenderJob& options);
+// has no memory for. `observer`: of the learning, if the picture is to have a guide; one that ends it must end the picture.
+PictureFrame framePicture(SceneSession& session, const RenderJob& options, const LearningObserver& observer);
 // What the film's light groups take, if it has some.
 void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame);
 

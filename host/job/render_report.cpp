@@ -156,7 +156,11 @@ Json suspectsOf(const RenderReport& report)
 Json guideOf(const RenderReport& report)
 {
     const auto& guide = report.guide;
-    return guide ? Json{{"digest", guide->digest}, {"cells", guide->cells}, {"paths", guide->paths}, {"seconds", guide->seconds}}
+    return guide ? Json{{"gain", report.guideGain},
+                        {"digest", guide->digest},
+                        {"cells", guide->cells},
+                        {"paths", guide->paths},
+                        {"seconds", guide->seconds}}
                  : Json(nullptr);
 }
 
@@ -251,9 +255,11 @@ std::string causticsText(const RenderReport& report)
 std::string guideText(const RenderReport& report)
 {
     const auto& guide = report.guide;
-    return guide ? format(", guided by %u cells that %.3g paths made in %.3g s", guide->cells, static_cast<double>(guide->paths),
-                          guide->seconds)
-                 : "";
+    if (!guide) {
+        return report.options.guiding == GuidingChoice::Auto ? ", without a guide, which would not pay" : "";
+    }
+    return format(", guided by %u cells that %.3g paths made in %.3g s", guide->cells, static_cast<double>(guide->paths), guide->seconds) +
+           (report.guideGain ? format(" for %.2g times less noise in the same time", *report.guideGain) : "");
 }
 
 std::string rangeText(const RenderReport& report)

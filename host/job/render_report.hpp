@@ -28,6 +28,7 @@ struct RenderReport {
     std::optional<ControlBias> bias;     // of adaptive renders
     std::optional<Denoising> denoising;  // of --denoise
     std::shared_ptr<const Guide> guide;  // null: paths were not guided
+    std::optional<double> guideGain;     // as in PictureFrame
 };
 
 // Of what is wrong or missing in a picture, as far as it is known.

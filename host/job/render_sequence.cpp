@@ -291,7 +291,12 @@ std::optional<Look> SequenceRenderer::draw(const RenderJob& options, const Film&
 ExitCode SequenceRenderer::renderShot(const RenderJob& options)
 {
     const auto start = Clock::now();
-    const PictureFrame frame = framePicture(session_, options);
+    ProgressPrinter learning(options.progress, std::nullopt, 1, place_);
+    const PictureFrame frame = framePicture(session_, options, [&](const LearningPause& pause) {
+        learning.printLearning(pause.done, secondsSince(start));
+        return watch_->signal() == 0;
+    });
+    learning.finish();
     if (watch_->signal() != 0) {
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                              : options.mainFile().string() + " and what follows was not rendered");
@@ -420,7 +425,8 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
                               std::move(suspects),
                               bias,
                               denoising,
-                              frame.settings.guide};
+                              frame.settings.guide,
+                              frame.guideGain};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }

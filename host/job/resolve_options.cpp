@@ -162,7 +162,7 @@ void resolveAov(const OptionTable& table, RenderJob& job)
         refuse(table, "--view", MessageId::Conflict,
                {"with --accelerator none there is no BVH; expected ", part::expected("--accelerator bvh")});
     }
-    if (settings.aov == Aov::Guide && job.guiding == GuidingChoice::Off) {
+    if (settings.aov == Aov::Guide && job.guiding != GuidingChoice::On) {
         refuse(table, "--view", MessageId::Requires, {"shows what paths are guided by; expected ", part::expected("--guiding on")});
     }
     settings.bounces = settings.aov == Aov::Guide ? settings.bounces : 0;  // of the paths that learn

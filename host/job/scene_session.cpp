@@ -1,7 +1,6 @@
 #include "host/job/scene_session.hpp"
 
 #include "host/memory.hpp"
-#include "host/render/learn_guide.hpp"
 #include "host/render/light_path_gain.hpp"
 
 #include <algorithm>
@@ -99,15 +98,21 @@ bool SceneSession::choosesLightPaths(const FlatCamera& camera, const RenderSetti
     return lightPaths_->isLight;
 }
 
-std::shared_ptr<const Guide> SceneSession::learnGuide(const FlatCamera& camera, const RenderSettings& settings)
+LearnedGuide SceneSession::learnGuide(const FlatCamera& camera, const RenderSettings& settings, GuideUse use,
+                                      const LearningObserver& observer)
 {
     const std::string name = fingerprint(0, camera);
     const glm::uvec2 size(settings.width, settings.height);
-    if (!guide_ || guide_->camera != name || guide_->size != size || guide_->caustics != settings.caustics) {
-        guide_ =
-            LearnedGuide{name, size, settings.caustics, glim::learnGuide(beginAhead(camera, settings), prepared_.flat, camera, settings)};
+    if (guide_ && guide_->camera == name && guide_->size == size && guide_->caustics == settings.caustics && guide_->use == use) {
+        return guide_->learned;
     }
-    return guide_->guide;
+    bool isWhole = true;
+    LearnedGuide learned = glim::learnGuide(beginAhead(camera, settings), prepared_.flat, camera, settings, use,
+                                            [&](const LearningPause& pause) { return isWhole = observer(pause); });
+    if (isWhole) {
+        guide_ = KeptGuide{name, size, settings.caustics, use, learned};
+    }
+    return learned;
 }
 
 Renderer& SceneSession::begin(const FlatCamera& camera, RenderSettings settings)

@@ -3,6 +3,7 @@
 
 #include "host/job/denoising.hpp"
 #include "host/job/render_job.hpp"
+#include "host/render/learn_guide.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/renderer.hpp"
 
@@ -34,7 +35,7 @@ public:
     bool choosesLightPaths(const FlatCamera& camera, const RenderSettings& settings);
     // What the paths of a picture by these settings are guided by. It is learned anew for another camera, size or scene,
     // and if light paths find caustics now or no longer.
-    std::shared_ptr<const Guide> learnGuide(const FlatCamera& camera, const RenderSettings& settings);
+    LearnedGuide learnGuide(const FlatCamera& camera, const RenderSettings& settings, GuideUse use, const LearningObserver& observer);
     // As begin(), for rays that are traced before the picture, which begin() then begins. Its statistics have the upload, not these rays.
     Renderer& beginAhead(const FlatCamera& camera, const RenderSettings& settings);
 
@@ -49,11 +50,12 @@ private:
         glm::uvec2 size;
         bool isLight;
     };
-    struct LearnedGuide {
+    struct KeptGuide {
         std::string camera;
         glm::uvec2 size;
         bool caustics;
-        std::shared_ptr<const Guide> guide;
+        GuideUse use;
+        LearnedGuide learned;
     };
     using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // last write and length
 
@@ -69,7 +71,7 @@ private:
     std::vector<Stamp> stamps_;
     std::optional<Renderer> renderer_;
     std::optional<LightPathChoice> lightPaths_;  // the last one, of the present scene
-    std::optional<LearnedGuide> guide_;          // the same
+    std::optional<KeptGuide> guide_;             // the same
     FilmDenoiser denoiser_;
     bool isSceneNew_ = true;  // to the renderer
     bool isAhead_ = false;    // the renderer, of the picture's samples

@@ -19,7 +19,9 @@ void GuideLearner::begin(const Renderer& renderer, const FlatScene& scene, const
         std::exception_ptr error;
         try {
             if (pause(true)) {
-                guide = learnGuide(renderer, scene, camera, settings, [this](bool needsDevice) { return pause(needsDevice); });
+                guide = learnGuide(renderer, scene, camera, settings, GuideUse::Always, [this](const LearningPause& now) {
+                            return pause(now.needsDevice);
+                        }).guide;
             }
         } catch (...) {
             error = std::current_exception();

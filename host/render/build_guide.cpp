@@ -20,27 +20,24 @@
 namespace glim {
 namespace {
 
-// Of 2048 to 65536 records, 8192 had the least variance (tests/bench/guiding.md), as had the next three numbers.
-constexpr std::size_t kCellRecords = 8192;  // a cell has at most so many, and half of it or about that
+// The numbers that had the least variance (tests/bench/guiding.md).
+constexpr double kCellRecords = 4.0;  // times the root of how many there are: a cell has at most so many, and half of it or about that
+constexpr double kLeastCellRecords = 2048.0;
 constexpr double kQuadLight = 1.0 / 512.0;  // share of a cell's light from which on a quadrant is divided
 constexpr std::size_t kQuadRecords = 24;    // quadrants with fewer are not divided
-constexpr float kShare = 0.5F;              // of directions that are sampled by the guide
 constexpr std::uint32_t kQuadLevels = 10;
-constexpr std::size_t kLeastRecords = 64;  // a cell with fewer guides nobody
-constexpr double kMostOfCell = 0.02;       // of a cell's light, for one record: the guide is not to follow one lucky path
-constexpr double kUniform = 0.02;          // share of the guide's directions that are uniform over the square
+constexpr double kDoubt = 3.0;        // typical records that a node is taken to have besides, spread over its quadrants
+constexpr float kShare = 0.7F;        // of directions that are sampled by the guide
+constexpr double kMostOfCell = 0.02;  // of a cell's light, for one record: the guide is not to follow one lucky path
+constexpr double kUniform = 0.02;     // share of the guide's directions that are uniform over the square
 // Of the mean. Where surfaces are brighter, as near a lamp, paths are not to end because all else is darker: the squared error was 4 times
 // as large.
 constexpr float kLeastRadiance = 0.03F, kMostRadiance = 3.0F;
-constexpr int kFocusSide = 32;               // bins of the square, by which radii are compared
-constexpr std::size_t kFocusRecords = 2048;  // that are enough for that
+constexpr std::size_t kLeastRecords = 64;    // a cell with fewer guides nobody
+constexpr std::size_t kFocusRecords = 2048;  // that are enough to compare radii,
+constexpr int kFocusSide = 32;               // by so many bins of the square on a side
 constexpr int kRadii = 12;
-
-struct Point {
-    vec3 p, w;
-    float light;   // that the ray along w brought
-    float direct;  // of the light sample
-};
+constexpr std::size_t kMedianRecords = 4096;  // that are enough for a median
 
 // As lib/octahedral.glsl.
 glm::dvec3 decodeDirection(std::uint32_t bits)
@@ -75,14 +72,16 @@ glm::dvec2 squareFromDirection(const glm::dvec3& w)
     return glm::clamp(0.5 + 0.5 * q, 0.0, 0x1.fffffep-1);
 }
 
-glm::dvec2 squareOf(const Point& point, const glm::dvec3& center, double focus)
+glm::dvec2 squareOf(const GuidePoint& point, const glm::dvec3& center, double focus)
 {
-    const glm::dvec3 w(point.w);
+    const glm::dvec3 w = decodeDirection(point.direction);
     return squareFromDirection(focus > 0.0 ? glm::dvec3(point.p) - center + focus * w : w);
 }
 
+using Points = std::span<GuidePoint>;
+
 struct Cell {
-    std::vector<std::uint32_t> points;
+    Points points;
     glm::vec3 center{0.0F};
     float focus = 0.0F;
     double radiance = 0.0, reflected = 0.0;
@@ -90,13 +89,13 @@ struct Cell {
 };
 
 // The sum over the bins of the square of their light, without what each record adds by itself.
-double concentrationOf(const std::vector<Point>& points, const Cell& cell, double focus)
+double concentrationOf(const Cell& cell, double focus)
 {
     std::vector<double> bins(kFocusSide * kFocusSide, 0.0);
     double own = 0.0;
     const std::size_t step = std::max<std::size_t>(1, cell.points.size() / kFocusRecords);
     for (std::size_t i = 0; i < cell.points.size(); i += step) {
-        const Point& point = points[cell.points[i]];
+        const GuidePoint& point = cell.points[i];
         if (point.light > 0.0F) {
             const glm::dvec2 square = squareOf(point, cell.center, focus);
             const double light = static_cast<double>(point.light);
@@ -107,22 +106,22 @@ double concentrationOf(const std::vector<Point>& points, const Cell& cell, doubl
     return std::accumulate(bins.begin(), bins.end(), -own, [](double sum, double bin) { return sum + bin * bin; });
 }
 
-void chooseFocus(const std::vector<Point>& points, Cell& cell)
+void chooseFocus(Cell& cell)
 {
     glm::dvec3 mean(0.0);
-    for (const std::uint32_t i : cell.points) {
-        mean += glm::dvec3(points[i].p);
+    for (const GuidePoint& point : cell.points) {
+        mean += glm::dvec3(point.p);
     }
     cell.center = glm::vec3(mean / static_cast<double>(cell.points.size()));
     double radius2 = 0.0;
-    for (const std::uint32_t i : cell.points) {
-        const glm::dvec3 v = glm::dvec3(points[i].p) - glm::dvec3(cell.center);
+    for (const GuidePoint& point : cell.points) {
+        const glm::dvec3 v = glm::dvec3(point.p) - glm::dvec3(cell.center);
         radius2 = std::max(radius2, glm::dot(v, v));
     }
-    double best = concentrationOf(points, cell, 0.0);
+    double best = concentrationOf(cell, 0.0);
     double focus = 1.25 * std::sqrt(radius2);
     for (int i = 0; i < kRadii && radius2 > 0.0; ++i, focus *= 1.4142135623730951) {
-        const double found = concentrationOf(points, cell, static_cast<double>(static_cast<float>(focus)));
+        const double found = concentrationOf(cell, static_cast<double>(static_cast<float>(focus)));
         if (found > best) {
             best = found;
             cell.focus = static_cast<float>(focus);
@@ -142,35 +141,39 @@ public:
           total_(total)
     {}
 
-    // The node of these items, in the square of `size` at `corner`.
-    std::uint32_t addNode(const std::vector<Item>& items, glm::dvec2 corner, double size, std::uint32_t level)
+    // Sets node `index`, whose items have their places in its square. `light`: what they bring, smoothed. `area`: of its square.
+    void build(std::uint32_t index, const std::vector<Item>& items, double light, double area, std::uint32_t level)
     {
-        const auto index = static_cast<std::uint32_t>(quads_.size());
-        quads_.emplace_back();
-        const double half = size / 2;
         std::array<std::vector<Item>, 4> parts;
+        std::array<double, 4> found{};
+        double sum = 0.0, squares = 0.0;
         for (const Item& item : items) {
-            parts[(item.square.x >= corner.x + half ? 1 : 0) + (item.square.y >= corner.y + half ? 2 : 0)].push_back(item);
+            const int x = item.square.x >= 0.5 ? 1 : 0, y = item.square.y >= 0.5 ? 1 : 0;
+            parts[x + 2 * y].push_back({2.0 * item.square - glm::dvec2(x, y), item.light});
+            found[x + 2 * y] += item.light;
+            sum += item.light;
+            squares += item.light * item.light;
         }
-        GuideQuad quad{};
+        const double doubt = kDoubt * squares / sum;
         std::array<double, 4> mass{};
+        std::uint32_t divided = 0;
         for (std::uint32_t q = 0; q < 4; ++q) {
-            const double light =
-                std::accumulate(parts[q].begin(), parts[q].end(), 0.0, [](double sum, const Item& item) { return sum + item.light; });
-            const double share = (1.0 - kUniform) * light / total_ + kUniform * half * half;
-            mass[q] = share;
-            if (level + 1 < kQuadLevels && light > kQuadLight * total_ && parts[q].size() >= kQuadRecords) {
-                const glm::dvec2 at = corner + half * glm::dvec2(q & 1U, q >> 1U);
-                quad.quadrants[static_cast<int>(q)] = addNode(parts[q], at, half, level + 1) | kGuideQuadNode;
-            } else {
-                quad.quadrants[static_cast<int>(q)] = std::bit_cast<std::uint32_t>(static_cast<float>(share / (half * half)));
+            const double smoothed = light * (found[q] + 0.25 * doubt) / (sum + doubt);
+            mass[q] = (1.0 - kUniform) * smoothed / total_ + kUniform * 0.25 * area;
+            if (level + 1 < kQuadLevels && found[q] > kQuadLight * total_ && parts[q].size() >= kQuadRecords) {
+                divided |= 1U << q;
             }
         }
         const double left = mass[0] + mass[2], right = mass[1] + mass[3];
-        quad.lowX = static_cast<float>(left / (left + right));
-        quad.lowY = glm::vec2(static_cast<float>(mass[0] / left), static_cast<float>(mass[1] / right));
-        quads_[index] = quad;
-        return index;
+        auto child = static_cast<std::uint32_t>(quads_.size());
+        quads_[index] = {static_cast<float>(left / (left + right)),
+                         glm::vec2(static_cast<float>(mass[0] / left), static_cast<float>(mass[1] / right)), child << 4U | divided};
+        quads_.resize(quads_.size() + static_cast<std::size_t>(std::popcount(divided)));
+        for (std::uint32_t q = 0; q < 4; ++q) {
+            if ((divided >> q & 1U) != 0) {
+                build(child++, parts[q], light * (found[q] + 0.25 * doubt) / (sum + doubt), 0.25 * area, level + 1);
+            }
+        }
     }
 
 private:
@@ -178,12 +181,12 @@ private:
     double total_;
 };
 
-void describeLight(const std::vector<Point>& points, Cell& cell)
+void describeLight(Cell& cell)
 {
     double total = 0.0, direct = 0.0;
-    for (const std::uint32_t i : cell.points) {
-        total += static_cast<double>(points[i].light);
-        direct += static_cast<double>(points[i].direct);
+    for (const GuidePoint& point : cell.points) {
+        total += static_cast<double>(point.light);
+        direct += static_cast<double>(point.direct);
     }
     const auto count = static_cast<double>(cell.points.size());
     cell.reflected = total / count;
@@ -193,78 +196,75 @@ void describeLight(const std::vector<Point>& points, Cell& cell)
     }
     std::vector<Item> items;
     double kept = 0.0;
-    for (const std::uint32_t i : cell.points) {
-        if (points[i].light > 0.0F) {
-            items.push_back({squareOf(points[i], cell.center, static_cast<double>(cell.focus)),
-                             std::min(static_cast<double>(points[i].light), kMostOfCell * total)});
+    for (const GuidePoint& point : cell.points) {
+        if (point.light > 0.0F) {
+            items.push_back({squareOf(point, cell.center, static_cast<double>(cell.focus)),
+                             std::min(static_cast<double>(point.light), kMostOfCell * total)});
             kept += items.back().light;
         }
     }
-    QuadBuilder(cell.quads, kept).addNode(items, glm::dvec2(0.0), 1.0, 0);
+    cell.quads.resize(1);
+    QuadBuilder(cell.quads, kept).build(0, items, kept, 1.0, 0);
 }
 
+// Cells are as many as a record of each has neighbours, but for a factor.
 class TreeBuilder {
 public:
-    TreeBuilder(const std::vector<Point>& points, std::vector<GuideNode>& nodes, std::vector<Cell>& cells)
-        : points_(points),
+    TreeBuilder(std::size_t cellRecords, std::vector<GuideNode>& nodes, std::vector<Cell>& cells)
+        : cellRecords_(cellRecords),
           nodes_(nodes),
           cells_(cells)
     {}
 
-    // Sets node `index` of these points. A leaf has the number of its cell plus 1, for now.
-    void build(std::uint32_t index, std::vector<std::uint32_t> of)
+    // Sets node `index` of these points, and puts them in its order. A leaf has the number of its cell plus 1, for now.
+    void build(std::uint32_t index, Points points)
     {
         vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-        for (const std::uint32_t i : of) {
-            low = glm::min(low, points_[i].p);
-            high = glm::max(high, points_[i].p);
+        for (const GuidePoint& point : points) {
+            low = glm::min(low, point.p);
+            high = glm::max(high, point.p);
         }
         const vec3 size = high - low;
         const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
-        const float split = of.size() > kCellRecords ? splitOf(of, axis) : 0.0F;
-        std::vector<std::uint32_t> below, above;
-        if (of.size() > kCellRecords) {
-            for (const std::uint32_t i : of) {
-                (points_[i].p[axis] < split ? below : above).push_back(i);
-            }
-        }
-        if (below.empty() || above.empty()) {
-            nodes_[index] = {0.0F, kGuideLeaf, of.empty() ? 0 : static_cast<std::uint32_t>(cells_.size() + 1), 0};
-            if (!of.empty()) {
-                cells_.emplace_back().points = std::move(of);
+        const bool divides = points.size() > cellRecords_ && size[axis] > 0.0F;
+        if (!divides) {
+            nodes_[index] = {0.0F, kGuideLeaf, points.empty() ? 0 : static_cast<std::uint32_t>(cells_.size() + 1), 0};
+            if (!points.empty()) {
+                cells_.emplace_back().points = points;
             }
             return;
         }
+        const float split = splitOf(points, axis, low[axis]);
+        // Stable, as sums are to be of one order in all standard libraries.
+        const auto above =
+            std::stable_partition(points.begin(), points.end(), [&](const GuidePoint& point) { return point.p[axis] < split; });
         const auto child = static_cast<std::uint32_t>(nodes_.size());
         nodes_.resize(nodes_.size() + 2);
         nodes_[index] = {split, static_cast<std::uint32_t>(axis), child, 0};
-        of = {};
-        build(child, std::move(below));
-        build(child + 1, std::move(above));
+        build(child, Points(points.begin(), above));
+        build(child + 1, Points(above, points.end()));
     }
 
 private:
-    // The median or, if no point is below it, as on a wall across the axis, the next place where points are.
-    float splitOf(const std::vector<std::uint32_t>& of, int axis) const
+    // About the median or, if no point is below it, as on a wall across the axis, the next place where points are.
+    static float splitOf(Points points, int axis, float low)
     {
         std::vector<float> places;
-        for (const std::uint32_t i : of) {
-            places.push_back(points_[i].p[axis]);
+        for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / kMedianRecords)) {
+            places.push_back(points[i].p[axis]);
         }
         const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
         std::nth_element(places.begin(), middle, places.end());
-        const float median = *middle;
-        if (*std::min_element(places.begin(), places.end()) < median) {
-            return median;
+        float split = *middle > low ? *middle : std::numeric_limits<float>::infinity();
+        if (!(*middle > low)) {
+            for (const GuidePoint& point : points) {
+                split = point.p[axis] > low ? std::min(split, point.p[axis]) : split;
+            }
         }
-        float next = std::numeric_limits<float>::infinity();
-        for (const float place : places) {
-            next = place > median ? std::min(next, place) : next;
-        }
-        return next;
+        return split;
     }
 
-    const std::vector<Point>& points_;
+    std::size_t cellRecords_;
     std::vector<GuideNode>& nodes_;
     std::vector<Cell>& cells_;
 };
@@ -283,7 +283,7 @@ Guide pack(std::vector<GuideNode> nodes, const std::vector<Cell>& cells, double 
     std::vector<std::uint32_t> places;
     for (const Cell& cell : cells) {
         places.push_back(at);
-        at += kGuideCellTexels + static_cast<std::uint32_t>(cell.quads.size()) * kGuideQuadTexels;
+        at += kGuideCellTexels + static_cast<std::uint32_t>(cell.quads.size());
     }
     Guide guide;
     guide.texels.reserve(at);
@@ -298,11 +298,7 @@ Guide pack(std::vector<GuideNode> nodes, const std::vector<Cell>& cells, double 
         append(guide.texels, GuideCell{cell.center, cell.focus, first, cell.quads.empty() ? 0.0F : kShare,
                                        std::clamp(radiance, kLeastRadiance, kMostRadiance), static_cast<float>(cell.reflected)});
         for (GuideQuad quad : cell.quads) {
-            for (int q = 0; q < 4; ++q) {
-                if ((quad.quadrants[q] & kGuideQuadNode) != 0) {
-                    quad.quadrants[q] = kGuideQuadNode | (first + (quad.quadrants[q] & ~kGuideQuadNode) * kGuideQuadTexels);
-                }
-            }
+            quad.children += first << 4U;
             append(guide.texels, quad);
         }
     }
@@ -315,35 +311,49 @@ Guide pack(std::vector<GuideNode> nodes, const std::vector<Cell>& cells, double 
 
 }  // namespace
 
-Guide emptyGuide() { return pack(std::vector<GuideNode>(kGuideRoots, GuideNode{0.0F, kGuideLeaf, 0, 0}), {}, 0.0); }
-
-Guide buildGuide(std::span<const GuideRecord> records)
+// The roots, and a quadtree of uniform directions.
+std::vector<GuideNode> firstNodes()
 {
-    std::vector<Point> points;
-    std::array<std::vector<std::uint32_t>, kGuideRoots> roots;
+    std::vector<GuideNode> nodes(kGuideRoots, GuideNode{0.0F, kGuideLeaf, 0, 0});
+    nodes.push_back(std::bit_cast<GuideNode>(GuideQuad{0.5F, glm::vec2(0.5F), 0}));
+    return nodes;
+}
+
+Guide emptyGuide() { return pack(firstNodes(), {}, 0.0); }
+
+void GuideBuilder::add(std::span<const GuideRecord> records)
+{
     for (const GuideRecord& record : records) {
         const float sum = record.value + record.direct + record.point.x + record.point.y + record.point.z;
         if (record.throughput > 0.0F && std::isfinite(sum) && std::isfinite(record.throughput)) {
-            roots[rootOf(decodeDirection(record.normal))].push_back(static_cast<std::uint32_t>(points.size()));
-            points.push_back({record.point, vec3(decodeDirection(record.direction)), record.value / record.throughput,
-                              record.direct / record.throughput});
+            points_[rootOf(decodeDirection(record.normal))].push_back(
+                {record.point, record.direction, record.value / record.throughput, record.direct / record.throughput});
         }
     }
-    std::vector<GuideNode> nodes(kGuideRoots);
+}
+
+Guide GuideBuilder::build()
+{
+    std::size_t count = 0;
+    for (const std::vector<GuidePoint>& points : points_) {
+        count += points.size();
+    }
+    const auto cellRecords = static_cast<std::size_t>(std::max(kLeastCellRecords, kCellRecords * std::sqrt(static_cast<double>(count))));
+    std::vector<GuideNode> nodes = firstNodes();
     std::vector<Cell> cells;
-    TreeBuilder builder(points, nodes, cells);
+    TreeBuilder builder(cellRecords, nodes, cells);
     for (std::uint32_t root = 0; root < kGuideRoots; ++root) {
-        builder.build(root, std::move(roots[root]));
+        builder.build(root, points_[root]);
     }
     parallelFor(cells.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
-        chooseFocus(points, cells[i]);
-        describeLight(points, cells[i]);
+        chooseFocus(cells[i]);
+        describeLight(cells[i]);
     });
     double sum = 0.0;
     for (const Cell& cell : cells) {
         sum += cell.radiance * static_cast<double>(cell.points.size());
     }
-    return pack(std::move(nodes), cells, points.empty() ? 0.0 : sum / static_cast<double>(points.size()));
+    return pack(std::move(nodes), cells, count == 0 ? 0.0 : sum / static_cast<double>(count));
 }
 
 }  // namespace glim

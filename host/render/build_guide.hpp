@@ -4,6 +4,7 @@
 #include "host/render/guide.hpp"
 #include "shaders/shared/guide_types.h"
 
+#include <array>
 #include <span>
 
 namespace glim {
@@ -11,7 +12,24 @@ namespace glim {
 // One that knows nothing: it guides no path.
 Guide emptyGuide();
 
-// The order of the records is part of what it depends on. Records without throughput, and those that are not finite, are left out.
-Guide buildGuide(std::span<const GuideRecord> records);
+// What a record says of light. 24 bytes: there are millions.
+struct GuidePoint {
+    vec3 p;
+    std::uint32_t direction;  // as in GuideRecord
+    float light;              // that the ray along it brought
+    float direct;             // of the light sample
+};
+
+// The order of the records is part of what a guide depends on.
+class GuideBuilder {
+public:
+    // Leaves out records without throughput, and those that are not finite.
+    void add(std::span<const GuideRecord> records);
+    // Of all records so far.
+    Guide build();
+
+private:
+    std::array<std::vector<GuidePoint>, kGuideRoots> points_;
+};
 
 }  // namespace glim

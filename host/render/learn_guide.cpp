@@ -3,28 +3,34 @@
 #include "host/error.hpp"
 #include "host/render/build_guide.hpp"
 #include "host/render/check_status.hpp"
+#include "host/render/noise.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace glim {
 namespace {
 
-constexpr double kLearningPixels = 16384.0;
+constexpr double kLearningPixels = 8192.0;
 constexpr std::uint32_t kSamples = 4;  // of a pixel, in a portion
-constexpr std::uint32_t kPasses = 5;   // each has twice the portions of the one before, and is guided by what that has learned
+// Each pass has twice the portions of the one before, and is guided by what those before have learned. From the fourth on, one that brings
+// less than a tenth is the last.
+constexpr std::uint32_t kLeastPasses = 4, kMostPasses = 7;
+constexpr double kLeastProgress = 0.9;
 constexpr std::uint32_t kPathsBetweenPauses = 8192;  // a twentieth of a second on two cores; no guide depends on it
 // No film has these samples, so no picture is guided by what its own samples have met.
 constexpr std::uint32_t kFirstLearningSample = 0x80000000U;
+// A picture with less variance is done before learning pays.
+constexpr double kHard = 1.0;
+constexpr double kLookups = 1.45;  // time of a guided ray over that of another (tests/bench/guiding.md)
 
 RenderSettings learningSettings(const RenderSettings& settings)
 {
     RenderSettings learning;
-    const double scale = std::min(1.0, std::sqrt(kLearningPixels / (static_cast<double>(settings.width) * settings.height)));
-    const auto sideOf = [&](std::uint32_t side) { return static_cast<std::uint32_t>(std::max(1.0, std::floor(scale * side))); };
-    learning.width = sideOf(settings.width);
-    learning.height = sideOf(settings.height);
+    const glm::uvec2 size = pilotSize(settings, kLearningPixels);
+    learning.width = size.x;
+    learning.height = size.y;
     learning.bounces = settings.bounces;
     learning.caustics = settings.caustics;
     learning.workgroup = settings.workgroup;
@@ -36,98 +42,138 @@ RenderSettings learningSettings(const RenderSettings& settings)
 
 class Learner {
 public:
-    explicit Learner(RenderResources& resources, const LearningPause& pause = nullptr)
-        : resources_(resources),
-          pause_(pause),
-          capacity_(std::min({resources_.paths().capacity(), resources_.guide->recordedPaths(), pause ? kPathsBetweenPauses : ~0U}))
+    Learner(const Renderer& renderer, NoiseMeter& meter, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+            const LearningObserver& observer)
+        : resources_(renderer.resources(), scene, camera, learningSettings(settings)),
+          meter_(meter),
+          observer_(observer),
+          atOnce_(
+              std::max(1U, std::min({resources_.paths().capacity(), resources_.guide->recordedPaths(), kPathsBetweenPauses}) / kSamples))
     {}
 
-    // Nothing if a pause has ended it.
-    std::optional<Guide> learn()
+    // Null if the observer has ended it.
+    std::shared_ptr<const Guide> learn()
     {
         const auto start = Clock::now();
-        Guide guide = emptyGuide();
-        std::uint32_t sample = kFirstLearningSample;
-        for (std::uint32_t pass = 0; pass < kPasses; ++pass) {
-            resources_.setGuide(guide);
+        auto best = std::make_shared<Guide>(emptyGuide());
+        for (std::uint32_t pass = 0; pass < kMostPasses; ++pass) {
+            resources_.setGuide(*best);
             tile_ = resources_.makeTile(0, resources_.settings.pixelCount());
-            records_.clear();
-            for (std::uint32_t portion = 0; portion < 1U << pass; ++portion, sample += kSamples) {
-                if (!trace(sample)) {
-                    return std::nullopt;
+            for (std::uint32_t i = 0; i < 1U << pass; ++i, ++portions_) {
+                if (!trace(kFirstLearningSample + portions_ * kSamples)) {
+                    return nullptr;
                 }
             }
             if (!goesOn(false)) {
-                return std::nullopt;
+                return nullptr;
             }
-            guide = buildGuide(records_);
+            auto guide = std::make_shared<Guide>(builder_.build());
             if (!goesOn(true)) {
-                return std::nullopt;
+                return nullptr;
+            }
+            guide->paths = std::uint64_t{portions_} * kSamples * resources_.settings.pixelCount();
+            if (pass + 1 >= kLeastPasses) {
+                const auto noise = meter_.measure(guide, [this] { return goesOn(true); });
+                if (!noise) {
+                    return nullptr;
+                }
+                const double before = std::exchange(work_, std::min(work_, noise->work()));
+                if (noise->work() > before) {
+                    break;
+                }
+                best = std::move(guide);
+                if (noise->work() > kLeastProgress * before) {
+                    break;
+                }
+            } else {
+                best = std::move(guide);
             }
         }
-        guide.paths = std::uint64_t{sample - kFirstLearningSample} * resources_.settings.pixelCount();
-        guide.seconds = secondsSince(start);
-        return guide;
+        best->seconds = secondsSince(start);
+        return best;
     }
 
+    double work() const { return work_; }  // by the guide
+
 private:
-    bool goesOn(bool needsDevice) const { return !pause_ || pause_(needsDevice); }
+    bool goesOn(bool needsDevice) const { return observer_({static_cast<double>(portions_) / ((1U << kMostPasses) - 1), needsDevice}); }
 
     bool trace(std::uint32_t sample)
     {
-        const std::uint32_t pixels = resources_.settings.pixelCount(), atOnce = std::max(1U, capacity_ / kSamples);
-        for (std::uint32_t first = 0; first < pixels; first += atOnce) {
+        const std::uint32_t pixels = resources_.settings.pixelCount();
+        for (std::uint32_t first = 0; first < pixels; first += atOnce_) {
             if (!goesOn(true)) {
                 return false;
             }
             Pass pass = tile_->pass();
             pass.firstPixel = first;
-            pass.pixelCount = std::min(atOnce, pixels - first);
+            pass.pixelCount = std::min(atOnce_, pixels - first);
             pass.firstSample = sample;
             pass.sampleCount = kSamples;
             Recording recording(resources_.device, resources_.statistics);
             PassTracer(resources_).tracePaths(recording, *tile_, pass);
             refuseBrokenStatus(resources_.device.description(), resources_.paths());
-            const auto records =
-                download<GuideRecord>(resources_.guide->records(), std::size_t{pass.pixelCount} * kSamples * kGuideRecords);
-            std::copy_if(records.begin(), records.end(), std::back_inserter(records_),
-                         [](const GuideRecord& record) { return record.throughput > 0.0F; });
+            builder_.add(download<GuideRecord>(resources_.guide->records(), std::size_t{pass.pixelCount} * kSamples * kGuideRecords));
         }
         return true;
     }
 
-    RenderResources& resources_;
-    const LearningPause& pause_;
-    const std::uint32_t capacity_;
+    RenderResources resources_;
+    NoiseMeter& meter_;
+    const LearningObserver& observer_;
+    const std::uint32_t atOnce_;  // pixels
     std::unique_ptr<Tile> tile_;
-    std::vector<GuideRecord> records_;
+    GuideBuilder builder_;
+    std::uint32_t portions_ = 0;  // traced
+    double work_ = std::numeric_limits<double>::infinity();
 };
 
-void refuseSlowCompiler(const DeviceDescription& device)
+// Whether the device can learn. Throws if it is to.
+bool canLearn(const DeviceDescription& device, GuideUse use)
 {
-    if (!rulesOf(device.deviceClass).compilesPaths) {
+    const bool compiles = rulesOf(device.deviceClass).compilesPaths;
+    if (!compiles && use == GuideUse::Always) {
         throw DeviceError(MessageId::DeviceLimit,
-                          {part::place("--guiding"), " ", part::value("on"), ": device \"", device.name,
+                          {part::place("--guiding"), ": device \"", device.name,
                            "\" would take minutes to compile the kernel that learns; expected ", part::expected("--guiding off"), "."});
     }
+    return compiles;
 }
 
 }  // namespace
 
-std::shared_ptr<const Guide> learnGuide(const Renderer& renderer, const FlatScene& scene, const FlatCamera& camera,
-                                        const RenderSettings& settings, const LearningPause& pause)
+LearnedGuide learnGuide(const Renderer& renderer, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                        GuideUse use, const LearningObserver& observer)
 {
-    refuseSlowCompiler(renderer.resources().device.description());
-    RenderResources resources(renderer.resources(), scene, camera, learningSettings(settings));
-    std::optional<Guide> guide = Learner(resources, pause).learn();
-    return guide ? std::make_shared<const Guide>(*std::move(guide)) : nullptr;
+    if (!canLearn(renderer.resources().device.description(), use)) {
+        return {};
+    }
+    NoiseMeter meter(renderer, scene, camera, settings);
+    std::optional<Noise> plain;
+    if (use == GuideUse::IfItPays) {
+        plain = meter.measure(nullptr, [&] { return observer({0.0, true}); });
+        if (!plain || plain->variance < kHard) {
+            return {};
+        }
+    }
+    Learner learner(renderer, meter, scene, camera, settings, observer);
+    LearnedGuide learned{learner.learn(), std::nullopt};
+    if (plain && learned.guide) {
+        learned.gain = plain->work() / (kLookups * learner.work());
+        learned.guide = *learned.gain > 1.0 ? std::move(learned.guide) : nullptr;
+    }
+    return learned;
 }
 
-std::shared_ptr<const Guide> learnGuide(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings)
+LearnedGuide learnGuide(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, GuideUse use)
 {
-    refuseSlowCompiler(device.description());
-    RenderResources resources(device, scene, camera, learningSettings(settings));
-    return std::make_shared<const Guide>(*Learner(resources).learn());
+    if (!canLearn(device.description(), use)) {
+        return {};
+    }
+    RenderSettings small = learningSettings(settings);
+    small.learns = false;
+    small.guide = use == GuideUse::Always ? std::make_shared<const Guide>(emptyGuide()) : nullptr;  // so that one set of kernels is enough
+    return learnGuide(Renderer(device, scene, camera, small), scene, camera, settings, use, [](const LearningPause&) { return true; });
 }
 
 }  // namespace glim

@@ -7,16 +7,29 @@
 
 namespace glim {
 
-// Called between the dispatches of learning, and before a guide is built: then `needsDevice` is false, and whoever is asked may use the
-// device until the next call. False ends the learning.
-using LearningPause = std::function<bool(bool needsDevice)>;
+// A pause of learning, several a second.
+struct LearningPause {
+    double done;       // of it, in [0, 1]; it may end sooner
+    bool needsDevice;  // else a guide is built next, and whoever is asked may use the device until the next pause
+};
+
+// False ends the learning.
+using LearningObserver = std::function<bool(const LearningPause&)>;
+
+enum class GuideUse { Always, IfItPays };
+
+struct LearnedGuide {
+    std::shared_ptr<const Guide> guide;  // null: it would not pay, or the observer has ended it
+    std::optional<double> gain;          // of IfItPays: work (noise.hpp) and time of lookups without a guide over those with it
+};
 
 // What paths of a picture by these settings are guided by: the same on all devices whose pictures have the same bits, and for all samples,
 // seeds and rows. Throws DeviceError if the device's driver cannot compile the kernel in reasonable time. Shares the resources of
-// `renderer`, a renderer of the scene. Null if `pause` has ended it.
-std::shared_ptr<const Guide> learnGuide(const Renderer& renderer, const FlatScene& scene, const FlatCamera& camera,
-                                        const RenderSettings& settings, const LearningPause& pause = nullptr);
+// `renderer`, a renderer of the scene.
+LearnedGuide learnGuide(const Renderer& renderer, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                        GuideUse use, const LearningObserver& observer);
 // The same, with resources of its own.
-std::shared_ptr<const Guide> learnGuide(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+LearnedGuide learnGuide(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
+                        GuideUse use = GuideUse::Always);
 
 }  // namespace glim

@@ -17,10 +17,9 @@ constexpr std::uint32_t kPatch = 8;  // pixels a side, over which radiance is av
 RenderSettings smallSettings(const RenderSettings& settings)
 {
     RenderSettings small;
-    const double scale = std::sqrt(kPixels / (static_cast<double>(settings.width) * settings.height));
-    const auto sideOf = [&](std::uint32_t side) { return static_cast<std::uint32_t>(std::max(1.0, std::round(scale * side))); };
-    small.width = sideOf(settings.width);
-    small.height = sideOf(settings.height);
+    const glm::uvec2 size = pilotSize(settings, kPixels);
+    small.width = size.x;
+    small.height = size.y;
     small.sampleEnd = 2 * kFirstBlockSamples;
     small.bounces = settings.bounces;
     small.sampler = settings.sampler;

@@ -21,7 +21,7 @@ struct Guide {
     float reflected;
 };
 
-const Guide kNoGuide = Guide(vec3(0.0), 0.0, 0u, 0.0, 1.0, 0.0);
+const Guide kNoGuide = Guide(vec3(0.0), 0.0, kUniformQuadtree, 0.0, 1.0, 0.0);
 
 uint guideRootOf(vec3 n)
 {
@@ -49,53 +49,64 @@ Guide fetchGuide(vec3 p, vec3 n)
     return guide;
 }
 
-// A unit direction. `pdf`, per steradian, is pdfGuide() but for directions that rounding takes to a neighbouring leaf: those would be weighted
-// by its density, which may be 1e5 times less, and a picture was 10 % too bright.
-vec3 sampleGuide(Guide guide, vec2 u, out float pdf)
+// Descends the guide's quadtree: to the leaf where `at` is in the square of directions or, if it samples, to a leaf by the random numbers `at`.
+// Returns the leaf's density over the square. `at`: then a point of the square in both cases. One loop for both, as neighbours on a SIMD
+// device want the one and the other.
+float descendGuide(Guide guide, bool samples, inout vec2 at)
 {
-    vec2 corner = vec2(0.0);
-    float size = 1.0;
-    uint node = guide.quadtree | kGuideQuadNode;
-    while ((node & kGuideQuadNode) != 0u) {
-        int at = int(node & ~kGuideQuadNode);
-        vec4 low = uintBitsToFloat(texelFetch(guideTexels, at));
-        uvec4 quadrants = texelFetch(guideTexels, at + 1);
-        bool highX = u.x >= low.x;
-        u.x = highX ? (u.x - low.x) / (1.0 - low.x) : u.x / low.x;
+    vec2 corner = vec2(0.0), inner = at;
+    float size = 1.0, density = 1.0;
+    uint node = guide.quadtree << 4u | 1u, quadrant = 0u;
+    while ((node >> quadrant & 1u) != 0u) {
+        uint before = bitCount(node & ((1u << quadrant) - 1u));
+        uvec4 quad = texelFetch(guideTexels, int((node >> 4u) + before));
+        vec3 low = uintBitsToFloat(quad.xyz);
+        float split = samples ? low.x : 0.5;
+        bool highX = inner.x >= split;
+        inner.x = (inner.x - (highX ? split : 0.0)) / (highX ? 1.0 - split : split);
         float lowY = highX ? low.z : low.y;
-        bool highY = u.y >= lowY;
-        u.y = highY ? (u.y - lowY) / (1.0 - lowY) : u.y / lowY;
-        u = min(u, 0.99999994);
+        split = samples ? lowY : 0.5;
+        bool highY = inner.y >= split;
+        inner.y = (inner.y - (highY ? split : 0.0)) / (highY ? 1.0 - split : split);
+        inner = min(inner, 0.99999994);
+        density *= 4.0 * (highX ? 1.0 - low.x : low.x) * (highY ? 1.0 - lowY : lowY);
         size *= 0.5;
         corner += vec2(highX ? size : 0.0, highY ? size : 0.0);
-        node = highY ? (highX ? quadrants.w : quadrants.z) : (highX ? quadrants.y : quadrants.x);
+        quadrant = (highX ? 1u : 0u) + (highY ? 2u : 0u);
+        node = quad.w;
     }
-    vec3 seen = directionFromSquare(corner + size * u), w = seen;
+    at = corner + size * inner;
+    return density;
+}
+
+// A direction, and the guide's density for it per steradian.
+struct GuideSample {
+    vec3 w;
+    float pdf;
+};
+
+// Of w or, if it samples, of a direction by the random numbers u. Rounding may take a sample to a neighbouring leaf, where pdfGuide() would
+// have another density, perhaps 1e5 times less: a picture was 10 % too bright. So the leaf that was sampled gives the density.
+GuideSample sampleGuideOr(Guide guide, bool samples, vec2 u, vec3 w)
+{
     float jacobian = 1.0;
-    if (guide.focus > 0.0) {
-        w = seeFromOrigin(guide.offset, guide.focus, seen);
-        seeFromCenter(guide.offset, guide.focus, w, jacobian);
+    vec3 seen = guide.focus > 0.0 ? seeFromCenter(guide.offset, guide.focus, w, jacobian) : w;
+    vec2 at = samples ? u : squareFromDirection(seen);
+    float density = descendGuide(guide, samples, at);
+    if (samples) {
+        w = seen = directionFromSquare(at);
+        if (guide.focus > 0.0) {
+            w = seeFromOrigin(guide.offset, guide.focus, seen);
+            seeFromCenter(guide.offset, guide.focus, w, jacobian);
+        }
     }
-    pdf = uintBitsToFloat(node) * pdfOfSquare(seen) * jacobian;
-    return w;
+    return GuideSample(w, density * pdfOfSquare(seen) * jacobian);
 }
 
 // Per steradian.
 float pdfGuide(Guide guide, vec3 w)
 {
-    float jacobian = 1.0;
-    if (guide.focus > 0.0) {
-        w = seeFromCenter(guide.offset, guide.focus, w, jacobian);
-    }
-    vec2 square = squareFromDirection(w);
-    uint node = guide.quadtree | kGuideQuadNode;
-    while ((node & kGuideQuadNode) != 0u) {
-        uvec4 quadrants = texelFetch(guideTexels, int((node & ~kGuideQuadNode) + 1u));
-        bvec2 high = greaterThanEqual(square, vec2(0.5));
-        square = 2.0 * square - vec2(high);
-        node = high.y ? (high.x ? quadrants.w : quadrants.z) : (high.x ? quadrants.y : quadrants.x);
-    }
-    return uintBitsToFloat(node) * pdfOfSquare(w) * jacobian;
+    return sampleGuideOr(guide, false, vec2(0.0), w).pdf;
 }
 
 #endif

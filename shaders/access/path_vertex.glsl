@@ -154,7 +154,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     }
     BsdfPair pair;
     float bsdfPdf;  // of the next direction
-    if (kGuided && guide.share > 0.0) {
+    if (kGuided) {  // also where no guide is known: a branch for these would cost as much as this one
         pair = evalAndSampleGuided(bsdf, guide, wo, light.wi, u.direction, u.lobe, bsdfPdf);
     } else {
         pair = evalAndSampleBsdf(bsdf, wo, light.wi, u.direction, u.lobe);

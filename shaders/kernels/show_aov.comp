@@ -32,9 +32,10 @@ vec3 describeGuide(Guide guide)
     vec3 sum = vec3(0.0);
     float density = 0.0;
     for (uint i = 0u; i < kGuideGrid * kGuideGrid; ++i) {
-        float pdf;
-        sum += sampleGuide(guide, (vec2(i % kGuideGrid, i / kGuideGrid) + 0.5) / float(kGuideGrid), pdf);
-        density += pdf;
+        vec2 u = (vec2(i % kGuideGrid, i / kGuideGrid) + 0.5) / float(kGuideGrid);
+        GuideSample guided = sampleGuideOr(guide, true, u, vec3(0.0, 0.0, 1.0));
+        sum += guided.w;
+        density += guided.pdf;
     }
     float concentration = 4.0 * kPi * density / float(kGuideGrid * kGuideGrid);
     float square = dot(sum, sum);

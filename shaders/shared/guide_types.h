@@ -8,6 +8,8 @@ GLIM_SHARED_BEGIN
 // The guide's texels begin with the roots of k-d trees over points, one for each main direction of the shading normal: +x, -x, +y, -y, +z,
 // -z.
 GLIM_CONST uint kGuideRoots = 6u;
+// Then there is a quadtree of one node, whose directions are uniform over the square: of points that no cell knows of.
+GLIM_CONST uint kUniformQuadtree = kGuideRoots;
 
 // A node of these trees. One texel.
 struct GuideNode {
@@ -29,16 +31,13 @@ struct GuideCell {
 };
 GLIM_CONST uint kGuideCellTexels = 2u;
 
-// A node of a quadtree over the square of directions (lib/guide.glsl). Two texels. Its quadrants: x low, x high, and the same again for y
-// high.
+// A node of a quadtree over the square of directions (lib/guide.glsl). One texel. Quadrants are numbered x low, x high, and the same again
+// for y high.
 struct GuideQuad {
-    float lowX;  // probability of x low
-    vec2 lowY;   // probabilities of y low, given x low or high
-    float unused;
-    uvec4 quadrants;  // each one's density over the square, as the bits of a float; or the texel of a node, plus kGuideQuadNode
+    float lowX;     // probability of x low
+    vec2 lowY;      // probabilities of y low, given x low or high
+    uint children;  // a bit for each quadrant that is divided, and from bit 4 on the texel of the first of these
 };
-GLIM_CONST uint kGuideQuadTexels = 2u;
-GLIM_CONST uint kGuideQuadNode = 0x80000000u;
 
 // What learn_guide finds out at a path's vertex.
 struct GuideRecord {

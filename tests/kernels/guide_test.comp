@@ -27,7 +27,9 @@ void main()
         Case c = cases[TEST_THREAD];
         Guide guide = fetchGuide(c.p, c.n);
         Result result;
-        result.sampled = sampleGuide(guide, c.u, result.pdf);
+        GuideSample guided = sampleGuideOr(guide, true, c.u, c.n);
+        result.sampled = guided.w;
+        result.pdf = guided.pdf;
         result.evaluated = pdfGuide(guide, result.sampled);
         result.pdfOfW = pdfGuide(guide, c.w);
         result.share = guide.share;

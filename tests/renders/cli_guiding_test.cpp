@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <filesystem>
 #include <map>
 #include <regex>
+#include <sstream>
 
 namespace glim::test {
 namespace {
@@ -22,7 +24,7 @@ protected:
     GlimCall call(const std::vector<std::string>& arguments) const
     {
         GlimCall call;
-        call.arguments = {"render", sceneFile(scene_), "--size", "12x12"};
+        call.arguments = {"render", sceneFile(scene_), "--size", size_};
         call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
         call.folder = folder_.path();
         return call;
@@ -36,7 +38,7 @@ protected:
     std::string digestOf(const char* film) const { return computeDigest(readFilm(folder_ / film)); }
 
     ScratchFolder folder_;
-    std::string scene_ = "cornell.gltf";
+    std::string scene_ = "cornell.gltf", size_ = "12x12";
 };
 
 TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
@@ -46,7 +48,9 @@ TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
     for (std::size_t lines = 1;; ++lines) {
         GlimCall killed =
             call({"-o", "film.exr", "--spp", "3000", "--guiding", "on", "--resume", "--checkpoint", "0.01s", "--progress", "json"});
-        killed.signalWhen = [lines](const std::string& err) { return countLines(err) > lines; };
+        killed.signalWhen = [lines](const std::string& err) {
+            return countLines(err) > lines && contains(err, "\"samples\":");  // after the learning
+        };
         killed.signal = lines % 2 == 0 ? SIGTERM : SIGKILL;
         const GlimRun ended = runGlim(killed);
         if (ended.exitCode == 0) {
@@ -56,6 +60,45 @@ TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
     }
     EXPECT_GT(kills, 0);
     EXPECT_EQ(digestOf("film.exr"), digestOf("whole.exr"));
+}
+
+TEST_F(CommandLineGuidingTest, LearningSaysHowFarItIsAndCanBeEnded)
+{
+    GlimCall stopped = call({"-o", "film.exr", "--spp", "64", "--guiding", "on", "--progress", "json"});
+    stopped.signalWhen = [](const std::string& err) { return countLines(err) > 2; };
+    stopped.signal = SIGINT;
+    const GlimRun run = runForMessages(stopped);
+    EXPECT_EQ(run.exitCode, 128 + SIGINT);
+    EXPECT_NE(run.err.find("nothing was rendered or written"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "film.exr"));
+    std::istringstream lines(run.err);
+    double learned = -1.0;
+    for (std::string line; std::getline(lines, line) && line.starts_with("{\"picture\"");) {
+        const double now = json::parse(line).at("learned").get<double>();
+        EXPECT_GE(now, learned);
+        learned = now;
+    }
+    EXPECT_GT(learned, 0.0) << run.err;
+    EXPECT_LT(learned, 1.0);
+}
+
+// In a box with a lamp under its ceiling a picture is done before learning pays.
+TEST_F(CommandLineGuidingTest, AutoGoesWithoutAGuideThatWouldNotPay)
+{
+    run({"-o", "off.exr", "--spp", "64"});
+    const GlimRun without = run({"-o", "auto.exr", "--spp", "64", "--guiding", "auto", "--stats", "auto.json"});
+    EXPECT_NE(without.out.find("without a guide, which would not pay"), std::string::npos) << without.out;
+    EXPECT_TRUE(json::parse(readFileBytes(folder_ / "auto.json")).at("guide").is_null());
+    EXPECT_EQ(digestOf("auto.exr"), digestOf("off.exr"));
+}
+
+TEST_F(CommandLineGuidingTest, AutoSaysWhatItGains)
+{
+    scene_ = "door_ajar.gltf";
+    size_ = "48x48";
+    const GlimRun guided = run({"-o", "auto.exr", "--spp", "64", "--guiding", "auto", "--stats", "auto.json"});
+    EXPECT_GT(json::parse(readFileBytes(folder_ / "auto.json")).at("guide").at("gain").get<double>(), 1.0);
+    EXPECT_NE(guided.out.find("times less noise in the same time"), std::string::npos) << guided.out;
 }
 
 TEST_F(CommandLineGuidingTest, PartsAreMergedToTheBitsOfOneRun)

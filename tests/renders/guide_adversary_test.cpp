@@ -21,7 +21,7 @@ Scene committed(const char* name) { return loadGltf(std::string(GLIM_SOURCE_DIR 
 
 std::shared_ptr<const Guide> learnFor(const Scene& scene, const RenderSettings& settings)
 {
-    return learnGuide(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings);
+    return learnGuide(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings).guide;
 }
 
 // Without a guide, then with one that is learned in `learned`, by other samples.

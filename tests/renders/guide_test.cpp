@@ -48,7 +48,7 @@ Scene doorAjar()
 std::shared_ptr<const Guide> learnFor(const Scene& scene, const RenderSettings& settings)
 {
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-    return learnGuide(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), aspect, {}), settings);
+    return learnGuide(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), aspect, {}), settings).guide;
 }
 
 double varianceOf(const Film& film)
@@ -163,7 +163,7 @@ TEST(GuideRenderTest, AWrongGuideChangesNoMean)
     RenderSettings settings = squareSettings(kSide, 4096);
     const Film plain = renderScene(scene, settings);
     settings.seed = 1;
-    settings.guide = std::make_shared<const Guide>(buildGuide(records));
+    settings.guide = std::make_shared<const Guide>(guideOf(records));
     expectSameMean("a wrong guide", renderScene(scene, settings), plain);
 }
 
@@ -183,7 +183,7 @@ TEST(GuideRenderTest, TheViewShowsDirectionsAndHowConcentratedTheyAre)
         .perspective({0, 0, kCamera}, {0, 0, 0}, 2.0F * std::atan(kTan));
     RenderSettings settings = squareSettings(kSide, 1);
     settings.aov = Aov::Guide;
-    settings.guide = std::make_shared<const Guide>(buildGuide(records));
+    settings.guide = std::make_shared<const Guide>(guideOf(records));
     const Film film = renderScene(b.scene(), settings);
     double cosines = 0.0;
     int wall = 0, floor = 0;

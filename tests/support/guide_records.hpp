@@ -1,7 +1,7 @@
 // What paths might have written down, for guides.
 #pragma once
 
-#include "shaders/shared/guide_types.h"
+#include "host/render/build_guide.hpp"
 #include "tests/support/random.hpp"
 
 #include <cmath>
@@ -31,6 +31,13 @@ inline std::vector<GuideRecord> recordsOfBall(std::size_t count, Random& random)
         records.push_back({vec3(p), 1.0F, encodeDirection(w), encodeDirection(random.direction()), 1.0F, 0.0F});
     }
     return records;
+}
+
+inline Guide guideOf(std::span<const GuideRecord> records)
+{
+    GuideBuilder builder;
+    builder.add(records);
+    return builder.build();
 }
 
 }  // namespace glim

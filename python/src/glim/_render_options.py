@@ -184,8 +184,8 @@ class RenderOptions(TypedDict, total=False):
     caustics: Union[bool, Literal["off", "on", "auto"]]
     """Caustics by light paths: on, off or auto, where they have less noise [auto]"""
 
-    guiding: Union[bool, Literal["off", "on"]]
-    """Path guiding, learned before the picture: on or off [off]"""
+    guiding: Union[bool, Literal["off", "on", "auto"]]
+    """Path guiding, learned before the picture: on, off or auto, where it pays [off]"""
 
     direct: Literal["mis", "lights", "hemisphere", "bsdf"]
     """Direct light: mis, lights, hemisphere or bsdf [mis]"""

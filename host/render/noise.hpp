@@ -1,0 +1,37 @@
+// The noise of a small picture, by which two ways to find a scene's light are compared.
+#pragma once
+
+#include "host/render/renderer.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace glim {
+
+struct Noise {
+    double variance = 0.0;  // of a sample, over the square of the radiance around its pixel, averaged over the picture
+    double rays = 0.0;      // of a sample
+
+    // What makes a picture take long: samples for an error, and rays for a sample.
+    double work() const { return variance * rays; }
+};
+
+// Measures pictures of about 1024 pixels, with samples that no film has: what a film's samples have met chooses no guide of theirs.
+class NoiseMeter {
+public:
+    // Shares the resources of `base`, a renderer of the scene that is idle while this one measures. `settings`: of the film.
+    NoiseMeter(const Renderer& base, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings);
+
+    // Of paths by `guide`; null: by none. Nothing if `shouldContinue`, asked when the device is idle, has ended it.
+    std::optional<Noise> measure(std::shared_ptr<const Guide> guide, const std::function<bool()>& shouldContinue);
+
+private:
+    const Renderer& base_;
+    const FlatScene& scene_;
+    const FlatCamera& camera_;
+    RenderSettings settings_;
+    std::unique_ptr<Renderer> guided_;  // the last one, for its kernels
+};
+
+}  // namespace glim
