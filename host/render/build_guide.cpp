@@ -207,7 +207,7 @@ void describeLight(Cell& cell)
     QuadBuilder(cell.quads, kept).build(0, items, kept, 1.0, 0);
 }
 
-// Cells are as many as a record of each has neighbours, but for a factor.
+// More records make both more cells and better known ones.
 class TreeBuilder {
 public:
     TreeBuilder(std::size_t cellRecords, std::vector<GuideNode>& nodes, std::vector<Cell>& cells)

@@ -10,8 +10,10 @@
 namespace glim {
 
 struct Noise {
-    double variance = 0.0;  // of a sample, over the square of the radiance around its pixel, averaged over the picture
-    double rays = 0.0;      // of a sample
+    // Of a sample, relative to the radiance around its pixel. It is the square of the mean of standard deviations, since a mean of
+    // variances would be that of the few pixels with fireflies.
+    double variance = 0.0;
+    double rays = 0.0;  // of a sample
 
     // What makes a picture take long: samples for an error, and rays for a sample.
     double work() const { return variance * rays; }
