@@ -16,7 +16,7 @@ constexpr std::uint32_t kFirstSample = 0xC0000000U;
 RenderSettings measuringSettings(const RenderSettings& settings)
 {
     RenderSettings small;
-    const glm::uvec2 size = pilotSize(settings, kNoisePixels);
+    const glm::uvec2 size = pilotSizeAtMost(settings, kNoisePixels);
     small.width = size.x;
     small.height = size.y;
     small.sampleBegin = kFirstSample;

@@ -12,9 +12,14 @@ namespace glim {
 
 glm::uvec2 pilotSize(const RenderSettings& settings, double pixels)
 {
-    const double scale = std::min(1.0, std::sqrt(pixels / (static_cast<double>(settings.width) * settings.height)));
+    const double scale = std::sqrt(pixels / (static_cast<double>(settings.width) * settings.height));
     const auto sideOf = [&](std::uint32_t side) { return static_cast<std::uint32_t>(std::max(1.0, std::round(scale * side))); };
     return {sideOf(settings.width), sideOf(settings.height)};
+}
+
+glm::uvec2 pilotSizeAtMost(const RenderSettings& settings, double pixels)
+{
+    return pilotSize(settings, std::min(pixels, static_cast<double>(settings.width) * settings.height));
 }
 
 std::string describeSettings(const RenderSettings& settings)

@@ -126,8 +126,9 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
-// Of a picture of the same shape with about so many pixels, at most those that there are.
+// Of a picture of the same shape with about so many pixels; the second one with no more than there are.
 glm::uvec2 pilotSize(const RenderSettings& settings, double pixels);
+glm::uvec2 pilotSizeAtMost(const RenderSettings& settings, double pixels);
 
 // The name that --schedule and the statistics use.
 inline const char* getName(Schedule schedule)
