@@ -45,6 +45,7 @@ set(scenesTooSlowForIt
     sun_water
     cornell_gems
     cornell_mirror_glass
+    mirror_room
     materials
     showcase
 )
