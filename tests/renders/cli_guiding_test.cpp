@@ -64,6 +64,7 @@ TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
 
 TEST_F(CommandLineGuidingTest, LearningSaysHowFarItIsAndCanBeEnded)
 {
+    size_ = "96x96";  // which takes seconds to learn
     GlimCall stopped = call({"-o", "film.exr", "--spp", "64", "--guiding", "on", "--progress", "json"});
     stopped.signalWhen = [](const std::string& err) { return countLines(err) > 2; };
     stopped.signal = SIGINT;
