@@ -37,6 +37,7 @@ constexpr std::size_t kLeastRecords = 64;    // a cell with fewer guides nobody
 constexpr std::size_t kFocusRecords = 2048;  // that are enough to compare radii,
 constexpr int kFocusSide = 32;               // by so many bins of the square on a side
 constexpr int kRadii = 12;
+constexpr float kWall = 1e-3F;                // of the box: points as near to its side are on it
 constexpr std::size_t kMedianRecords = 4096;  // that are enough for a median
 
 // As lib/octahedral.glsl.
@@ -234,7 +235,7 @@ public:
             }
             return;
         }
-        const float split = splitOf(points, axis, low[axis]);
+        const float split = splitOf(points, axis, low[axis], high[axis]);
         // Stable, as sums are to be of one order in all standard libraries.
         const auto above =
             std::stable_partition(points.begin(), points.end(), [&](const GuidePoint& point) { return point.p[axis] < split; });
@@ -246,22 +247,19 @@ public:
     }
 
 private:
-    // About the median or, if no point is below it, as on a wall across the axis, the next place where points are.
-    static float splitOf(Points points, int axis, float low)
+    // About the median; the middle of the box if that is at one of its sides, as if most points are on a wall across the axis: a split
+    // within the wall would be by rounding.
+    static float splitOf(Points points, int axis, float low, float high)
     {
         std::vector<float> places;
         for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / kMedianRecords)) {
             places.push_back(points[i].p[axis]);
         }
-        const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-        std::nth_element(places.begin(), middle, places.end());
-        float split = *middle > low ? *middle : std::numeric_limits<float>::infinity();
-        if (!(*middle > low)) {
-            for (const GuidePoint& point : points) {
-                split = point.p[axis] > low ? std::min(split, point.p[axis]) : split;
-            }
-        }
-        return split;
+        const auto median = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+        std::nth_element(places.begin(), median, places.end());
+        const float margin = kWall * (high - low), middle = low + 0.5F * (high - low);
+        const float split = *median > low + margin && *median < high - margin ? *median : middle;
+        return split > low ? split : high;
     }
 
     std::size_t cellRecords_;
