@@ -15,9 +15,9 @@ namespace {
 constexpr double kLearningPixels = 8192.0;
 constexpr std::uint32_t kSamples = 4;  // of a pixel, in a portion
 // Each pass has twice the portions of the one before, and is guided by what those before have learned. From the fourth on, one that brings
-// less than a tenth is the last.
+// less than a tenth off the work is the last.
 constexpr std::uint32_t kLeastPasses = 4, kMostPasses = 7;
-constexpr double kLeastProgress = 0.9;
+constexpr double kHelps = 0.9;
 constexpr std::uint32_t kPathsBetweenPauses = 8192;  // a twentieth of a second on two cores; no guide depends on it
 // No film has these samples, so no picture is guided by what its own samples have met.
 constexpr std::uint32_t kFirstLearningSample = 0x80000000U;
@@ -82,7 +82,7 @@ public:
                     break;
                 }
                 best = std::move(guide);
-                if (noise->work() > kLeastProgress * before) {
+                if (noise->work() > kHelps * before) {
                     break;
                 }
             } else {
