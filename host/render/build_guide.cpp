@@ -293,7 +293,8 @@ Guide pack(std::vector<GuideNode> nodes, const std::vector<Cell>& cells, double 
         const Cell& cell = cells[i];
         const std::uint32_t first = places[i] + kGuideCellTexels;
         const auto radiance = static_cast<float>(mean > 0.0 ? cell.radiance / mean : 1.0);
-        append(guide.texels, GuideCell{cell.center, cell.focus, first, cell.quads.empty() ? 0.0F : kShare,
+        const bool knows = !cell.quads.empty();
+        append(guide.texels, GuideCell{cell.center, cell.focus, knows ? first : kUniformQuadtree, knows ? kShare : 0.0F,
                                        std::clamp(radiance, kLeastRadiance, kMostRadiance), static_cast<float>(cell.reflected)});
         for (GuideQuad quad : cell.quads) {
             quad.children += first << 4U;

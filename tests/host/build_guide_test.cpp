@@ -115,7 +115,9 @@ TEST(BuildGuideTest, FewRecordsGuideNobody)
     }
     const Guide guide = guideOf(records);
     ASSERT_EQ(guide.cells, 1U);
-    EXPECT_EQ(cellAt(guide, nodeAt(guide, 2).child).share, 0.0F);
+    const GuideCell cell = cellAt(guide, nodeAt(guide, 2).child);
+    EXPECT_EQ(cell.share, 0.0F);
+    EXPECT_EQ(cell.quadtree, kUniformQuadtree) << "it has none of its own";
 }
 
 }  // namespace glim::build_guide_test

@@ -41,39 +41,65 @@ vec3 directionIn(int part, Random& random)
     return vec3(glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), z));
 }
 
+void expectStatedDensity(const Buffer& texels, const vec3& p, const vec3& n, float share, Random& random)
+{
+    std::vector<Case> cases;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        cases.push_back({p, n, vec2(random.uniform(), random.uniform()), directionIn(i, random)});
+        cases.back().u = glm::min(cases.back().u, vec2(0x1.fffffep-1F));
+    }
+    KernelTest test(test_kernels::guide_test);
+    test.buffers({{kBindGuide, &texels}}).cases(cases).resultsOf<Result>(cases.size()).run();
+    const std::vector<Result> results = test.results<Result>();
+    std::array<double, 32> counts{}, sums{}, squares{};
+    double differs = 0.0;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        EXPECT_EQ(results[i].share, share);
+        EXPECT_GT(results[i].pdfOfW, 0.0F) << "no direction is left out";
+        counts[binOf(results[i].sampled)] += 1.0;
+        const double weight = 4.0 * 3.141592653589793 * static_cast<double>(results[i].pdfOfW);
+        sums[binOf(cases[i].w)] += weight;
+        squares[binOf(cases[i].w)] += weight * weight;
+        differs += std::abs(results[i].pdf - results[i].evaluated) > 1e-3F * results[i].pdf ? 1.0 : 0.0;
+    }
+    EXPECT_LT(differs, 1e-3 * static_cast<double>(results.size())) << "only at the edges of leaves";
+    for (int bin = 0; bin < 32; ++bin) {
+        const double error = std::sqrt(counts[bin] + squares[bin] + 1.0);
+        EXPECT_NEAR(counts[bin], sums[bin], 5.0 * error) << "bin " << bin;
+    }
+}
+
+Buffer upload(const Guide& guide)
+{
+    Buffer texels(testDevice(), "guide", BufferKind::Texel, guide.texels.size() * sizeof(uvec4));
+    glim::upload(texels, std::span<const uvec4>(guide.texels));
+    return texels;
+}
+
 TEST(GuideTest, SamplesHaveTheStatedDensity)
 {
     Random random(3);
     const Guide guide = guideOf(recordsOfBall(200000, random));
     ASSERT_GT(guide.cells, 6U);
-    Buffer texels(testDevice(), "guide", BufferKind::Texel, guide.texels.size() * sizeof(uvec4));
-    upload(texels, std::span<const uvec4>(guide.texels));
+    const Buffer texels = upload(guide);
     for (const vec3 p : {vec3(0.1F, 0.2F, -0.3F), vec3(0.9F, 0.2F, -0.3F), vec3(-3.0F, 5.0F, 0.0F)}) {
         for (const vec3 n : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) {
-            std::vector<Case> cases;
-            for (int i = 0; i < kSide * kSide; ++i) {
-                cases.push_back({p, n, vec2(random.uniform(), random.uniform()), directionIn(i, random)});
-                cases.back().u = glm::min(cases.back().u, vec2(0x1.fffffep-1F));
-            }
-            KernelTest test(test_kernels::guide_test);
-            test.buffers({{kBindGuide, &texels}}).cases(cases).resultsOf<Result>(cases.size()).run();
-            const std::vector<Result> results = test.results<Result>();
-            std::array<double, 32> counts{}, sums{}, squares{};
-            double differs = 0.0;
-            for (std::size_t i = 0; i < results.size(); ++i) {
-                EXPECT_EQ(results[i].share, 0.7F);
-                counts[binOf(results[i].sampled)] += 1.0;
-                const double weight = 4.0 * 3.141592653589793 * static_cast<double>(results[i].pdfOfW);
-                sums[binOf(cases[i].w)] += weight;
-                squares[binOf(cases[i].w)] += weight * weight;
-                differs += std::abs(results[i].pdf - results[i].evaluated) > 1e-3F * results[i].pdf ? 1.0 : 0.0;
-            }
-            EXPECT_LT(differs, 1e-3 * static_cast<double>(results.size())) << "only at the edges of leaves";
-            for (int bin = 0; bin < 32; ++bin) {
-                const double error = std::sqrt(counts[bin] + squares[bin] + 1.0);
-                EXPECT_NEAR(counts[bin], sums[bin], 5.0 * error) << "bin " << bin;
-            }
+            expectStatedDensity(texels, p, n, 0.7F, random);
         }
+    }
+}
+
+// All records are of one normal, and too few for a quadtree.
+TEST(GuideTest, WithoutAQuadtreeDirectionsAreUniformOverTheSquare)
+{
+    Random random(4);
+    std::vector<GuideRecord> records = recordsOfBall(60, random);
+    for (GuideRecord& record : records) {
+        record.normal = encodeDirection({0, 1, 0});
+    }
+    const Buffer texels = upload(guideOf(records));
+    for (const vec3 n : {vec3(1, 0, 0), vec3(0, 1, 0)}) {
+        expectStatedDensity(texels, vec3(0.1F), n, 0.0F, random);
     }
 }
 
