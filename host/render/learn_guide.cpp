@@ -27,13 +27,7 @@ constexpr double kLookups = 1.45;  // time of a guided ray over that of another 
 
 RenderSettings learningSettings(const RenderSettings& settings)
 {
-    RenderSettings learning;
-    const glm::uvec2 size = pilotSizeAtMost(settings, kLearningPixels);
-    learning.width = size.x;
-    learning.height = size.y;
-    learning.bounces = settings.bounces;
-    learning.caustics = settings.caustics;
-    learning.workgroup = settings.workgroup;
+    RenderSettings learning = pilotSettings(settings, pilotSizeAtMost(settings, kLearningPixels));
     learning.schedule = Schedule::Persistent;
     learning.sampler = Sampler::Independent;
     learning.learns = true;

@@ -16,16 +16,9 @@ constexpr std::uint32_t kPatch = 8;  // pixels a side, over which radiance is av
 
 RenderSettings smallSettings(const RenderSettings& settings)
 {
-    RenderSettings small;
-    const glm::uvec2 size = pilotSize(settings, kPixels);
-    small.width = size.x;
-    small.height = size.y;
+    RenderSettings small = pilotSettings(settings, pilotSize(settings, kPixels));
     small.sampleEnd = 2 * kFirstBlockSamples;
-    small.bounces = settings.bounces;
-    small.sampler = settings.sampler;
     small.paths = settings.paths;
-    small.schedule = settings.schedule;
-    small.workgroup = settings.workgroup;
     small.comparesPaths = true;
     return small;
 }

@@ -15,17 +15,9 @@ constexpr std::uint32_t kFirstSample = 0xC0000000U;
 
 RenderSettings measuringSettings(const RenderSettings& settings)
 {
-    RenderSettings small;
-    const glm::uvec2 size = pilotSizeAtMost(settings, kNoisePixels);
-    small.width = size.x;
-    small.height = size.y;
+    RenderSettings small = pilotSettings(settings, pilotSizeAtMost(settings, kNoisePixels));
     small.sampleBegin = kFirstSample;
     small.sampleEnd = kFirstSample + 2 * kBlockSamples;
-    small.bounces = settings.bounces;
-    small.sampler = settings.sampler;
-    small.caustics = settings.caustics;
-    small.schedule = settings.schedule;
-    small.workgroup = settings.workgroup;
     small.passSeconds = kPassSeconds;
     small.uncheckedSeconds = 0.0;  // no pass is in flight while others use the device
     return small;

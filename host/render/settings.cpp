@@ -22,6 +22,19 @@ glm::uvec2 pilotSizeAtMost(const RenderSettings& settings, double pixels)
     return pilotSize(settings, std::min(pixels, static_cast<double>(settings.width) * settings.height));
 }
 
+RenderSettings pilotSettings(const RenderSettings& settings, const glm::uvec2& size)
+{
+    RenderSettings pilot;
+    pilot.width = size.x;
+    pilot.height = size.y;
+    pilot.bounces = settings.bounces;
+    pilot.sampler = settings.sampler;
+    pilot.caustics = settings.caustics;
+    pilot.schedule = settings.schedule;
+    pilot.workgroup = settings.workgroup;
+    return pilot;
+}
+
 std::string describeSettings(const RenderSettings& settings)
 {
     constexpr const char* kDirect[] = {"mis", "lights", "hemisphere", "bsdf"};

@@ -129,6 +129,8 @@ struct RenderSettings {
 // Of a picture of the same shape with about so many pixels; the second one with no more than there are.
 glm::uvec2 pilotSize(const RenderSettings& settings, double pixels);
 glm::uvec2 pilotSizeAtMost(const RenderSettings& settings, double pixels);
+// Of a picture of this size whose paths are as those by `settings`.
+RenderSettings pilotSettings(const RenderSettings& settings, const glm::uvec2& size);
 
 // The name that --schedule and the statistics use.
 inline const char* getName(Schedule schedule)
