@@ -25,15 +25,15 @@ RenderSettings measuringSettings(const RenderSettings& settings)
 
 double relativeVarianceOf(const Film& film, std::uint32_t width)
 {
-    struct Patch {
+    struct NoisePatch {
         double pixels = 0.0, radiance = 0.0, variance = 0.0;
     };
     const std::uint32_t columns = (width + kNoisePatch - 1) / kNoisePatch;
-    std::vector<Patch> patches(film.pixels.size() / width * columns);
+    std::vector<NoisePatch> patches(film.pixels.size() / width * columns);
     double sum = 0.0;
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const glm::dvec3 mean(film.pixels[i].mean), squares(film.pixels[i].squares);
-        Patch& patch = patches[i / width / kNoisePatch * columns + i % width / kNoisePatch];
+        NoisePatch& patch = patches[i / width / kNoisePatch * columns + i % width / kNoisePatch];
         patch.pixels += 1.0;
         patch.radiance += (mean.r + mean.g + mean.b) / 3.0;
         patch.variance += (squares.r + squares.g + squares.b) / 3.0 / std::max(1.0, film.pixels[i].blocks - 1.0);
@@ -42,7 +42,7 @@ double relativeVarianceOf(const Film& film, std::uint32_t width)
     // A tenth of the picture's mean: where it is black, errors are not seen.
     const double floor = 0.1 * sum / static_cast<double>(film.pixels.size());
     double deviation = 0.0;
-    for (const Patch& patch : patches) {
+    for (const NoisePatch& patch : patches) {
         if (sum > 0.0 && patch.pixels > 0.0) {
             const double radiance = patch.radiance / patch.pixels;
             deviation += patch.pixels * std::sqrt(patch.variance / patch.pixels / (radiance * radiance + floor * floor));
