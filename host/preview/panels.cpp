@@ -1,7 +1,9 @@
 #include "host/preview/panels.hpp"
 
+#include "host/image/png.hpp"
 #include "host/text.hpp"
 #include "host/window/widgets.hpp"
+#include "shaders/shared/display_colors.h"
 
 #include <imgui.h>
 
@@ -13,6 +15,8 @@ namespace glim {
 namespace {
 
 constexpr int kLongestList = 5;      // cameras, before the list scrolls
+constexpr float kMapCell = 0.3F;     // in heights of the font: the side of a cell of the guide's map, before it is rounded to pixels
+constexpr double kBelow = 0.35;      // how bright directions below the surface are
 constexpr float kPlotHeight = 5.0F;  // in heights of the font
 
 constexpr HelpLine kHelp[] = {
@@ -27,6 +31,7 @@ constexpr HelpLine kHelp[] = {
     {"T", "next tone"},
     {"V", "next layer"},
     {"N", "denoise what is left alone, or not"},
+    {"G", "what the guide knows under the mouse (--guiding on)"},
     {"click", "print what is there, and change it in the panel"},
     {"Z", "undo the last change"},
     {"Space", "pause"},
@@ -100,6 +105,23 @@ void showFigures(const PanelFigures& figures)
     ImGui::TextUnformatted(figures.device.c_str());
 }
 
+// By the logarithm of the density: from blue, as if all directions were alike or fewer chosen, to red.
+void drawGuide(const GuideMap& map)
+{
+    const float side = std::max(1.0F, std::round(kMapCell * ImGui::GetFontSize()));
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({side * GuideMap::kColumns, side * GuideMap::kRows});
+    const double highest = std::log(static_cast<double>(map.highestDensity()));
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+        const auto& [density, isBelow] = map.cells[i];
+        const double place = placeOnScale(std::log(static_cast<double>(density)), 0.0, highest, kSmallestScale);
+        const Rgb8 color = roundToBytes((isBelow ? kBelow : 1.0) * heatColor(place));
+        const ImVec2 low(corner.x + side * static_cast<float>(i % GuideMap::kColumns),
+                         corner.y + side * static_cast<float>(i / GuideMap::kColumns));
+        ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + side, low.y + side}, IM_COL32(color[0], color[1], color[2], 255));
+    }
+}
+
 SurfaceChoices changeSurface(const PanelFigures& figures, SurfaceChoices choices)
 {
     ImGui::TextUnformatted(figures.surface.c_str());
@@ -149,6 +171,10 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
             ImGui::Text("estimated relMSE %.3g", figures.errors.back().relMse);
             plotErrors(figures.errors);
         }
+        if (figures.canGuide) {
+            ImGui::Separator();
+            ImGui::Checkbox("guide under the mouse", &choices.showsGuide);
+        }
         if (figures.canDenoise) {
             ImGui::Separator();
             ImGui::Checkbox("denoise when left alone", &choices.denoises);
@@ -159,6 +185,23 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
     }
     endPanel();
     return choices;
+}
+
+void showGuide(const std::optional<GuideMap>& map, const std::string& why)
+{
+    if (beginInset("guide")) {
+        if (map) {
+            drawGuide(*map);
+            ImGui::PushTextWrapPos(ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x);
+            ImGui::TextWrapped("guide: %.0f %% of directions are by it, red ones %.3g times as often as uniform ones, blue ones no more",
+                               100.0 * static_cast<double>(map->share), static_cast<double>(map->highestDensity()));
+            ImGui::TextWrapped("middle: ahead; sides: behind; dark: below the surface");
+            ImGui::PopTextWrapPos();
+        } else {
+            ImGui::TextUnformatted(why.c_str());
+        }
+    }
+    ImGui::End();
 }
 
 void showHelp(float below) { showHelp(kHelp, below); }

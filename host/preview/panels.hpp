@@ -3,6 +3,7 @@
 
 #include "host/preview/surface_edits.hpp"
 #include "host/render/aov.hpp"
+#include "host/render/guide_map.hpp"
 #include "host/window/notice.hpp"
 
 #include <glm/glm.hpp>
@@ -34,6 +35,7 @@ struct PanelFigures {
     std::string surface;                        // what was clicked, with its material; empty: nothing
     bool hasMaterial = false, hasNode = false;  // that the user may change
     std::size_t edits = 0;
+    bool canGuide = false;
 };
 
 // What the user changes in the panels.
@@ -43,6 +45,7 @@ struct PanelChoices {
     Aov layer = Aov::Radiance;
     std::size_t camera = 0;
     bool denoises = true;
+    bool showsGuide = false;
     SurfaceChoices surface;
     bool undo = false;
     bool operator==(const PanelChoices&) const = default;
@@ -61,6 +64,8 @@ struct PanelMessages {
 // Call these inside a frame (host/window/gui.hpp).
 // Returns `choices` with what the user changes in this frame.
 PanelChoices showControls(const PanelFigures& figures, PanelChoices choices);
+// In the upper right corner: what the guide knows at the point under the mouse, or why there is nothing to show.
+void showGuide(const std::optional<GuideMap>& map, const std::string& why);
 // Above the messages, whose height is `below`.
 void showHelp(float below);
 

@@ -33,7 +33,8 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       loader_(options.scene, options.load, options.split),
       pictures_(screen_.device(), options.settings, options.lens, [this] { announceCompiling(); }),
       denoiser_(screen_.device(), [this] { announceCompiling(); }),
-      meter_(options.look)
+      meter_(options.look),
+      guideInset_(screen_.device())
 {
     display_.resize(std::max(1U, window.pictureSize().x), std::max(1U, window.pictureSize().y));
 }
@@ -263,6 +264,10 @@ void Session::present()
             display_.draw(pictures_.shown().renderer(), pictures_.layer(), meter_.range(), meter_.look());
         }
     }
+    if (showsGuide()) {
+        const std::optional<glm::uvec2> pixel = mouse_ ? std::optional(pixelAt(*mouse_)) : std::nullopt;
+        guideInset_.look(pictures_.shown(), pictures_.scene(), picker_, pixel, size());
+    }
     buildPanels();
     buildPanels();  // ImGui lays out a frame by the sizes of the one before
     const bool isShown = screen_.present(shownPicture());
@@ -353,14 +358,17 @@ void Session::handle(const Event& event)
     }
 }
 
-// The panels take what is theirs. The mouse may move over the picture without any answer.
+// The panels take what is theirs. The mouse may move over the picture without any answer, unless it asks the guide.
 void Session::handleMouse(const Event& event)
 {
     screen_.gui().point(event);
     buildPanels();
     const bool panels = screen_.gui().hasMouse();
     const std::optional<Gesture> gesture = gestures_.take(event, panels);
-    if (panels || gesture || mouseIsPanels_) {
+    if (!panels) {
+        mouse_ = event.position;
+    }
+    if (panels || gesture || mouseIsPanels_ || (showsGuide() && pictures_.isGuided())) {
         pacer_.await(event.when);
     }
     mouseIsPanels_ = panels;
@@ -383,6 +391,8 @@ void Session::press(char key)
         meter_.setTone(static_cast<Tone>((static_cast<std::uint32_t>(meter_.look().tone) + 1) % 3));
     } else if (key == 'N') {
         denoises_ = !denoises_;
+    } else if (key == 'G') {
+        toggleGuide();
     } else if (key == ' ') {
         paused_ = !paused_;
     } else if (viewpoint_) {
@@ -412,6 +422,15 @@ void Session::pressForScene(char key)
         printCamera();
     } else if (key == 'Z') {
         undo();
+    }
+}
+
+void Session::toggleGuide()
+{
+    if (options_.guiding) {
+        showsGuide_ = !showsGuide_;
+    } else {
+        say("There is no guide without --guiding on.");
     }
 }
 
@@ -446,6 +465,7 @@ PanelChoices Session::chosen() const
             pictures_.layer(),
             viewpoint_ ? viewpoint_->index() : 0,
             denoises_,
+            showsGuide_,
             surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
 }
 
@@ -458,6 +478,9 @@ PanelChoices Session::layOutPanels(const PanelChoices& before)
         const float below = !isThere || panelLevel_ > 0 ? showMessages(messages_.lines()) : 0.0F;
         if (isThere && panelLevel_ == 1) {
             wanted = showControls(figures(), before);
+        }
+        if (showsGuide()) {
+            showGuide(guideInset_.map(), guideInset_.why());
         }
         if (panelLevel_ == 2) {
             showHelp(below);
@@ -492,6 +515,7 @@ void Session::buildPanels()
         chooseCamera(wanted.camera);
     }
     denoises_ = wanted.denoises;
+    showsGuide_ = wanted.showsGuide;
     if (wanted.undo) {
         undo();
     } else if (surface_ && wanted.surface != before.surface) {
@@ -529,6 +553,7 @@ PanelFigures Session::figures() const
     figures.hasMaterial = surface_ && surface_->materialPointer;
     figures.hasNode = surface_ && surface_->nodePointer;
     figures.edits = edits_.size();
+    figures.canGuide = options_.guiding;
     return figures;
 }
 
@@ -537,7 +562,7 @@ void Session::clickAt(const glm::dvec2& position)
     if (pictures_.isEmpty()) {
         return;
     }
-    const glm::uvec2 pixel(glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size() - 1U)));
+    const glm::uvec2 pixel = pixelAt(position);
     const std::optional<Pick> found = picker_.pick(pictures_.shown(), pictures_.scene(), pixel, size());
     const std::string there = describeSurface(found);
     surface_.reset();

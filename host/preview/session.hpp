@@ -3,6 +3,7 @@
 
 #include "host/clock.hpp"
 #include "host/preview/film_meter.hpp"
+#include "host/preview/guide_inset.hpp"
 #include "host/preview/guide_learner.hpp"
 #include "host/preview/idle_denoiser.hpp"
 #include "host/preview/pacer.hpp"
@@ -36,6 +37,8 @@ private:
     bool hasMoved() const { return viewpoint_ && viewpoint_->hasMoved(); }
     bool isWhole() const { return !hasMoved() && pictures_.shown().sampleCount() > 0; }
     bool isInputWaiting() const { return hasMoved() || !inbox_.empty() || !events_.isEmpty(); }
+    bool showsGuide() const { return showsGuide_ && !pictures_.isEmpty() && panelLevel_ < 2; }
+    glm::uvec2 pixelAt(const glm::dvec2& position) const { return glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size() - 1U)); }
     glm::uvec2 size() const { return {display_.width(), display_.height()}; }
 
     // The loop.
@@ -64,6 +67,7 @@ private:
     void pressForScene(char key);
     void chooseLayer(Aov layer);
     void chooseCamera(std::size_t index);
+    void toggleGuide();
     void clickAt(const glm::dvec2& position);
     void printCamera();
     void undo();
@@ -100,6 +104,9 @@ private:
     std::vector<Edit> edits_;  // of the user, after those of the options
     Picker picker_;
     std::optional<ChosenSurface> surface_;  // that was clicked
+    GuideInset guideInset_;
+    bool showsGuide_ = false;
+    std::optional<glm::dvec2> mouse_;  // where it was last over the picture
 
     std::deque<Event> inbox_;      // events that are taken but not handled yet
     std::function<void()> later_;  // work that starts once the window shows the message about it

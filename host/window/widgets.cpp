@@ -46,6 +46,13 @@ void endPanel()
     ImGui::End();
 }
 
+bool beginInset(const char* title)
+{
+    ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x, 0.0F}, ImGuiCond_Always, {1.0F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(kOpacity);
+    return ImGui::Begin(title, nullptr, kFlags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoInputs);
+}
+
 double exposureSlider(double stops)
 {
     auto chosen = static_cast<float>(stops);

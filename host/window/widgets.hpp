@@ -15,6 +15,9 @@ namespace glim {
 bool beginPanel(const char* title);
 void endPanel();
 
+// A panel in the upper right corner, which the mouse does not meet. ImGui::End follows in any case.
+bool beginInset(const char* title);
+
 // Lets the user choose among `values`, by the names that `name` gives.
 template <class Value, class Name>
 Value choose(const char* label, const std::vector<Value>& values, Value chosen, Name&& name)

@@ -254,6 +254,28 @@ TEST(HelpTest, FitsTheWindowAndCoversNoMessage)
     }
 }
 
+// The controls are in the other corner.
+TEST(GuideInsetTest, FitsIntoTheUpperRightCorner)
+{
+    GuideMap map;
+    map.share = 0.7F;
+    map.cells.resize(std::size_t{GuideMap::kColumns} * GuideMap::kRows);
+    map.cells[5].density = 1e4F;
+    for (const float scale : {1.0F, 2.0F}) {
+        const glm::uvec2 size = static_cast<std::uint32_t>(scale) * glm::uvec2(512, 384);
+        for (const auto& shown : {std::optional(map), std::optional<GuideMap>()}) {
+            const std::vector<LaidOutPanel> panels = layOut(scale, size, [&] { showGuide(shown, "no guide yet"); });
+            ASSERT_EQ(panels.size(), 1U);
+            EXPECT_EQ(panels[0].place.Min.y, 0.0F);
+            EXPECT_EQ(panels[0].place.Max.x, static_cast<float>(size.x));
+            EXPECT_GT(panels[0].place.Min.x, 0.4F * static_cast<float>(size.x));
+            EXPECT_LT(panels[0].place.Max.y, 0.7F * static_cast<float>(size.y));
+            EXPECT_EQ(panels[0].hidden.x, 0.0F);
+            EXPECT_EQ(panels[0].hidden.y, 0.0F);
+        }
+    }
+}
+
 // An input waits until a picture is shown that began after it.
 TEST(PacerTest, InputsWaitForTheirPicture)
 {

@@ -1,6 +1,8 @@
 // The guide's samples have the density that it states, which integrates to 1 over all directions.
 // Once they had not: values after a loop were wrong on one driver (shaders/driver_bugs.md), and pictures a percent too bright.
 #include "host/render/build_guide.hpp"
+#include "host/render/guide_buffers.hpp"
+#include "host/render/guide_map.hpp"
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
 #include "tests/support/guide_records.hpp"
@@ -10,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace glim::guide_test {
 
@@ -101,6 +105,75 @@ TEST(GuideTest, WithoutAQuadtreeDirectionsAreUniformOverTheSquare)
     for (const vec3 n : {vec3(1, 0, 0), vec3(0, 1, 0)}) {
         expectStatedDensity(texels, vec3(0.1F), n, 0.0F, random);
     }
+}
+
+// What the window shows of a guide.
+struct Shown {
+    Shown()
+        : guide(guideOf(recordsOfBall(200000, random))),
+          texels(testDevice(), "guide", BufferKind::Texel, guide.texels.size() * sizeof(uvec4)),
+          probe(testDevice())
+    {
+        glim::upload(texels, std::span<const uvec4>(guide.texels));
+    }
+
+    Random random{5};
+    Guide guide;
+    Buffer texels;
+    GuideProbe probe;
+};
+
+TEST(GuideProbeTest, HasTheDensitiesOfPaths)
+{
+    Shown shown;
+    const vec3 p(0.1F, 0.2F, -0.3F), n(0, 1, 0);
+    std::vector<Case> cases;
+    std::vector<vec3> directions;
+    for (int i = 0; i < 1000; ++i) {
+        directions.emplace_back(shown.random.direction());
+        cases.push_back({p, n, vec2(0.5F), directions.back()});
+    }
+    KernelTest test(test_kernels::guide_test);
+    test.buffers({{kBindGuide, &shown.texels}}).cases(cases).resultsOf<Result>(cases.size()).run();
+    const std::vector<Result> results = test.results<Result>();
+    const std::vector<ProbedDirection> probed = shown.probe.ask(shown.texels, p, n, directions);
+    ASSERT_EQ(probed.size(), results.size());
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        EXPECT_EQ(probed[i].pdf, results[i].pdfOfW) << i;
+        EXPECT_EQ(probed[i].share, results[i].share) << i;
+    }
+}
+
+TEST(GuideMapTest, TheCamerasAxisIsInTheMiddle)
+{
+    Shown shown;
+    const vec3 p(0.1F, 0.2F, -0.3F);
+    const glm::dvec3 ball = glm::normalize(glm::dvec3(1.6, 0.3, -0.4) - glm::dvec3(p));
+    FlatCamera camera{};
+    camera.right = vec3(-0.5F, 0.0F, 0.0F);  // as long as half the film
+    camera.up = vec3(0.0F, 0.25F, 0.0F);
+    camera.forward = vec3(0, 0, 1);
+    const GuideMap map = shown.probe.map(shown.texels, p, vec3(0, 1, 0), camera);
+    EXPECT_EQ(map.share, 0.7F);
+    // The ball is seen at an angle of 4 degrees, and a cell has 5.6.
+    const double column = (0.5 + std::atan2(-ball.x, ball.z) / (2.0 * std::numbers::pi)) * GuideMap::kColumns;
+    const double row = (0.5 - std::asin(ball.y) / std::numbers::pi) * GuideMap::kRows;
+    double sum = 0.0;
+    for (int y = 0; y < GuideMap::kRows; ++y) {
+        for (int x = 0; x < GuideMap::kColumns; ++x) {
+            const GuideMap::Cell& cell = map.cells[static_cast<std::size_t>(y * GuideMap::kColumns + x)];
+            EXPECT_EQ(cell.isBelow, y >= GuideMap::kRows / 2);
+            const double sine = std::sin(std::numbers::pi * (y + 0.5) / GuideMap::kRows);
+            sum += static_cast<double>(cell.density) * 0.5 * std::numbers::pi * sine / (GuideMap::kColumns * GuideMap::kRows);
+            if (cell.density == map.highestDensity()) {
+                EXPECT_LT(std::abs(x + 0.5 - column), 1.5);
+                EXPECT_LT(std::abs(y + 0.5 - row), 1.5);
+            }
+        }
+    }
+    EXPECT_NEAR(sum, 1.0, 0.02);
+    EXPECT_GT(map.highestDensity(), 50.0F);
+    EXPECT_EQ(shown.probe.map(GuideBuffers(testDevice(), emptyGuide(), 0).texels(), p, vec3(0, 1, 0), camera).share, 0.0F);
 }
 
 }  // namespace glim::guide_test

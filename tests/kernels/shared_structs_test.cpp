@@ -20,7 +20,7 @@ static_assert(sizeof(PrincipledData) == 64 && sizeof(LayersData) == 96 && sizeof
 static_assert(sizeof(FlatCamera) == 144 && sizeof(DisplayPass) == 40 && sizeof(ViewPass) == 56);
 static_assert(sizeof(EverySharedStruct) == 4 * kSharedWords);
 static_assert(sizeof(CoursePass) == 56 && sizeof(RenderParameters) == 308 && sizeof(CourseParameters) == 16);
-static_assert(sizeof(CoursePass) <= 64 && sizeof(DisplayPass) <= 64 && sizeof(ViewPass) <= 64,
+static_assert(sizeof(CoursePass) <= 64 && sizeof(DisplayPass) <= 64 && sizeof(ViewPass) <= 64 && sizeof(GuideProbePass) <= 64,
               "push constants hold what changes from dispatch to dispatch");
 
 TEST(SharedStructsTest, HaveEveryFieldInTheSamePlace)

@@ -5,13 +5,14 @@
 #include "../../shaders/shared/course_types.h"
 #include "../../shaders/shared/denoise_types.h"
 #include "../../shaders/shared/display_types.h"
+#include "../../shaders/shared/guide_probe_types.h"
 #include "../../shaders/shared/path_types.h"
 #include "../../shaders/shared/pixel_moments.h"
 #include "../../shaders/shared/scene_types.h"
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 501u;
+GLIM_CONST uint kSharedWords = 513u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -51,6 +52,8 @@ struct EverySharedStruct {
     NoisyPixel noisy;
     WeightedSum weighted;
     DenoisePass denoise;
+    GuideProbePass probe;
+    ProbedDirection probed;
 };
 
 GLIM_SHARED_END
@@ -139,5 +142,6 @@ U(view.width) U(view.firstRow) U(view.rows) U(view.left) U(view.top) U(view.righ
 F(view.low) F(view.high) F(view.relative) F(view.epsilon)
 F3(noisy.mean) F3(noisy.variance) F3(weighted.radiance) F(weighted.weight)
 U(denoise.width) U(denoise.height) U(denoise.first) U(denoise.count) U(denoise.windowRow)
+F3(probe.point) F3(probe.normal) U(probe.directions) F3(probed.w) F(probed.pdf) F(probed.share)
 // clang-format on
 #endif
