@@ -26,8 +26,9 @@ constexpr double kLeastCellRecords = 2048.0;
 constexpr double kQuadLight = 1.0 / 512.0;  // share of a cell's light from which on a quadrant is divided
 constexpr std::size_t kQuadRecords = 24;    // quadrants with fewer are not divided
 constexpr std::uint32_t kQuadLevels = 10;
-constexpr double kDoubt = 3.0;        // typical records that a node is taken to have besides, spread over its quadrants
-constexpr float kShare = 0.7F;        // of directions that are sampled by the guide
+constexpr double kDoubt = 3.0;  // typical records that a node is taken to have besides, spread over its quadrants
+// Second moments are equal where light samples are worth as much as the next rays. Paths cost about four times as much as shadow rays.
+constexpr double kShadowRays = 4.0;
 constexpr double kMostOfCell = 0.02;  // of a cell's light, for one record: the guide is not to follow one lucky path
 constexpr double kUniform = 0.02;     // share of the guide's directions that are uniform over the square
 // Of the mean. Where surfaces are brighter, as near a lamp, paths are not to end because all else is darker: the squared error was 4 times
@@ -37,7 +38,8 @@ constexpr std::size_t kLeastRecords = 64;    // a cell with fewer guides nobody
 constexpr std::size_t kFocusRecords = 2048;  // that are enough to compare radii,
 constexpr int kFocusSide = 32;               // by so many bins of the square on a side
 constexpr int kRadii = 12;
-constexpr float kWall = 1e-3F;                // of the box: points as near to its side are on it
+constexpr float kWall = 1e-3F;                // of the box: points as near to each other may be on a wall, and are
+constexpr std::size_t kWallShare = 32;        // if they are this part of all
 constexpr std::size_t kMedianRecords = 4096;  // that are enough for a median
 
 // As lib/octahedral.glsl.
@@ -82,11 +84,13 @@ glm::dvec2 squareOf(const GuidePoint& point, const glm::dvec3& center, double fo
 using Points = std::span<GuidePoint>;
 
 struct Cell {
+    std::uint32_t texel;
     Points points;
     glm::vec3 center{0.0F};
     float focus = 0.0F;
     double radiance = 0.0, reflected = 0.0;
-    std::vector<GuideQuad> quads;  // links relative to the first
+    std::uint32_t sight = 0;
+    std::vector<GuideQuad> quads;
 };
 
 // The sum over the bins of the square of their light, without what each record adds by itself.
@@ -109,6 +113,9 @@ double concentrationOf(const Cell& cell, double focus)
 
 void chooseFocus(Cell& cell)
 {
+    if (cell.points.empty()) {
+        return;
+    }
     glm::dvec3 mean(0.0);
     for (const GuidePoint& point : cell.points) {
         mean += glm::dvec3(point.p);
@@ -130,10 +137,26 @@ void chooseFocus(Cell& cell)
     }
 }
 
+float luminanceOf(std::uint32_t direct) { return std::bit_cast<float>(direct & ~(kSampledLights | kSampleBlocked)); }
+
 struct Item {
     glm::dvec2 square;
     double light;
 };
+
+// The one by which samples of two parts vary least, if the first one's light is `probability` of all.
+std::uint32_t wordOf(double probability)
+{
+    const auto cost = [&](std::uint32_t word) {
+        const auto p = static_cast<double>(guideProbability(word));
+        return (p - probability) * (p - probability) / (p * (1.0 - p));
+    };
+    std::uint32_t word = 1;
+    while (word < 63 && cost(word + 1) < cost(word)) {
+        ++word;
+    }
+    return word;
+}
 
 class QuadBuilder {
 public:
@@ -145,56 +168,126 @@ public:
     // Sets node `index`, whose items have their places in its square. `light`: what they bring, smoothed. `area`: of its square.
     void build(std::uint32_t index, const std::vector<Item>& items, double light, double area, std::uint32_t level)
     {
-        std::array<std::vector<Item>, 4> parts;
-        std::array<double, 4> found{};
-        double sum = 0.0, squares = 0.0;
-        for (const Item& item : items) {
-            const int x = item.square.x >= 0.5 ? 1 : 0, y = item.square.y >= 0.5 ? 1 : 0;
-            parts[x + 2 * y].push_back({2.0 * item.square - glm::dvec2(x, y), item.light});
-            found[x + 2 * y] += item.light;
-            sum += item.light;
-            squares += item.light * item.light;
-        }
-        const double doubt = kDoubt * squares / sum;
-        std::array<double, 4> mass{};
-        std::uint32_t divided = 0;
+        GuideQuad quad{};
+        std::vector<std::pair<std::uint32_t, Square>> divided;
+        const std::array<Square, 4> quadrants = divide({items, light, area, true}, 0, quad);
         for (std::uint32_t q = 0; q < 4; ++q) {
-            const double smoothed = light * (found[q] + 0.25 * doubt) / (sum + doubt);
-            mass[q] = (1.0 - kUniform) * smoothed / total_ + kUniform * 0.25 * area;
-            if (level + 1 < kQuadLevels && found[q] > kQuadLight * total_ && parts[q].size() >= kQuadRecords) {
-                divided |= 1U << q;
+            const std::array<Square, 4> inner = divide(quadrants[q], 1 + q, quad);
+            for (std::uint32_t r = 0; r < 4; ++r) {
+                if (inner[r].divides && level + 2 < kQuadLevels) {
+                    divided.emplace_back(4 * q + r, inner[r]);
+                    quad.children |= 1U << (4 * q + r);
+                }
             }
         }
-        const double left = mass[0] + mass[2], right = mass[1] + mass[3];
         auto child = static_cast<std::uint32_t>(quads_.size());
-        quads_[index] = {static_cast<float>(left / (left + right)),
-                         glm::vec2(static_cast<float>(mass[0] / left), static_cast<float>(mass[1] / right)), child << 4U | divided};
-        quads_.resize(quads_.size() + static_cast<std::size_t>(std::popcount(divided)));
-        for (std::uint32_t q = 0; q < 4; ++q) {
-            if ((divided >> q & 1U) != 0) {
-                build(child++, parts[q], light * (found[q] + 0.25 * doubt) / (sum + doubt), 0.25 * area, level + 1);
-            }
+        quad.children |= child << 16U;
+        quads_[index] = quad;
+        quads_.resize(quads_.size() + divided.size());
+        for (const auto& [number, square] : divided) {
+            build(child++, square.items, square.light, square.area, level + 2);
         }
     }
 
 private:
+    struct Square {
+        std::vector<Item> items;
+        double light = 0.0, area = 0.0;
+        bool divides = false;
+    };
+
+    // The quadrants of `square`, whose probabilities are the words `number`.
+    std::array<Square, 4> divide(const Square& square, std::uint32_t number, GuideQuad& quad) const
+    {
+        std::array<Square, 4> parts;
+        std::array<double, 4> found{};
+        double sum = 0.0, squares = 0.0;
+        for (const Item& item : square.items) {
+            const int x = item.square.x >= 0.5 ? 1 : 0, y = item.square.y >= 0.5 ? 1 : 0;
+            parts[x + 2 * y].items.push_back({2.0 * item.square - glm::dvec2(x, y), item.light});
+            found[x + 2 * y] += item.light;
+            sum += item.light;
+            squares += item.light * item.light;
+        }
+        const double doubt = square.divides ? kDoubt * squares / sum : 0.0;
+        std::array<double, 4> mass{};
+        for (std::uint32_t q = 0; q < 4; ++q) {
+            Square& part = parts[q];
+            part.area = 0.25 * square.area;
+            part.light = square.divides ? square.light * (found[q] + 0.25 * doubt) / (sum + doubt) : 0.25 * square.light;
+            part.divides = square.divides && found[q] > kQuadLight * total_ && part.items.size() >= kQuadRecords;
+            mass[q] = (1.0 - kUniform) * part.light / total_ + kUniform * part.area;
+        }
+        const double left = mass[0] + mass[2], right = mass[1] + mass[3];
+        quad.lowX |= wordOf(left / (left + right)) << (6 * number);
+        quad.lowYOfLowX |= wordOf(mass[0] / left) << (6 * number);
+        quad.lowYOfHighX |= wordOf(mass[1] / right) << (6 * number);
+        return parts;
+    }
+
     std::vector<GuideQuad>& quads_;
     double total_;
 };
 
+// Light samples of some lights.
+struct SampledLights {
+    double attempted = 0.0, squares = 0.0, arrived = 0.0;
+
+    void add(const SampledLights& other)
+    {
+        attempted += other.attempted;
+        squares += other.squares;
+        arrived += other.arrived;
+    }
+
+    // Half octaves. Lights that are seen from a share of the points are best chosen by its root.
+    std::uint32_t steps() const
+    {
+        const double doubt = attempted > 0.0 ? kDoubt * squares / attempted : 1.0, visible = (arrived + doubt) / (attempted + doubt);
+        std::uint32_t steps = 0;
+        while (steps < kSightSteps && std::ldexp(visible, static_cast<int>(steps) + 1) <= 1.0) {
+            ++steps;
+        }
+        return steps;
+    }
+};
+
+// `direct`, `found`: squares of light that light samples have brought, and the next rays.
+std::uint32_t sightOf(std::array<SampledLights, kSightGroups> lights, double direct, double found)
+{
+    for (std::uint32_t part = 0; part < kSightOfInfinite; ++part) {
+        lights[kSightOfFinite].add(lights[part]);
+    }
+    std::uint32_t sight = 0, rarer = 0;
+    for (std::uint32_t group = 0; group < kSightGroups; ++group) {
+        sight |= lights[group].steps() << (3 * group);
+    }
+    while (rarer < kSampleSteps && std::ldexp(kShadowRays * direct, 2 * static_cast<int>(rarer) + 2) <= found) {
+        ++rarer;
+    }
+    return sight | rarer << 30U;
+}
+
 void describeLight(Cell& cell)
 {
-    double total = 0.0, direct = 0.0;
+    double total = 0.0, direct = 0.0, totalSquares = 0.0, directSquares = 0.0;
+    std::array<SampledLights, kSightGroups> lights;
     for (const GuidePoint& point : cell.points) {
-        total += static_cast<double>(point.light);
-        direct += static_cast<double>(point.direct);
+        const auto light = static_cast<double>(point.light), sampled = static_cast<double>(luminanceOf(point.direct));
+        const double arrived = (point.direct & kSampleBlocked) == 0 ? sampled : 0.0;
+        total += light;
+        totalSquares += light * light;
+        direct += arrived;
+        directSquares += arrived * arrived;
+        lights[std::min(point.direct & kSampledLights, kSightOfInfinite)].add({sampled, sampled * sampled, arrived});
     }
-    const auto count = static_cast<double>(cell.points.size());
+    const auto count = std::max(1.0, static_cast<double>(cell.points.size()));
     cell.reflected = total / count;
     cell.radiance = (total + direct) / count;
     if (cell.points.size() < kLeastRecords || !(total > 0.0)) {
         return;
     }
+    cell.sight = sightOf(lights, directSquares, totalSquares);
     std::vector<Item> items;
     double kept = 0.0;
     for (const GuidePoint& point : cell.points) {
@@ -208,18 +301,74 @@ void describeLight(Cell& cell)
     QuadBuilder(cell.quads, kept).build(0, items, kept, 1.0, 0);
 }
 
+template <class T>
+void put(std::vector<uvec4>& texels, std::size_t at, const T& value)
+{
+    static_assert(sizeof(T) % sizeof(uvec4) == 0);
+    const auto words = std::bit_cast<std::array<uvec4, sizeof(T) / sizeof(uvec4)>>(value);
+    std::ranges::copy(words, texels.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
 // More records make both more cells and better known ones.
 class TreeBuilder {
 public:
-    TreeBuilder(std::size_t cellRecords, std::vector<GuideNode>& nodes, std::vector<Cell>& cells)
+    TreeBuilder(std::size_t cellRecords, std::vector<uvec4>& texels, std::vector<Cell>& cells)
         : cellRecords_(cellRecords),
-          nodes_(nodes),
+          texels_(texels),
           cells_(cells)
     {}
 
-    // Sets node `index` of these points, and puts them in its order. A leaf has the number of its cell plus 1, for now.
-    void build(std::uint32_t index, Points points)
+    // Sets the node at `texel` of these points, and puts them in its order.
+    void build(std::uint32_t texel, Points points) { build(texel, points, splitOf(points)); }
+
+private:
+    struct Split {
+        std::uint32_t axis = kGuideNoSplit;
+        float at = 0.0F;
+    };
+
+    void build(std::uint32_t texel, Points points, Split split)
     {
+        const std::size_t block = texels_.size() / kGuideBlockTexels;
+        texels_.resize(texels_.size() + kGuideBlockTexels);
+        GuideNode node{split.at, vec2(0.0F), split.axis | static_cast<std::uint32_t>(block) << 10U};
+        const std::array<Points, 2> halves = divide(points, split);
+        std::array<Points, 4> quarters;
+        for (int half = 0; half < 2; ++half) {
+            const Split second = splitOf(halves[half]);
+            node.halfSplits[half] = second.at;
+            node.children |= second.axis << (2 + 2 * half);
+            std::ranges::copy(divide(halves[half], second), quarters.begin() + std::ptrdiff_t{2} * half);
+        }
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+            const auto at = static_cast<std::uint32_t>(block * kGuideBlockTexels + 2 * quarter);
+            const Split next = splitOf(quarters[quarter]);
+            if (next.axis != kGuideNoSplit) {
+                build(at, quarters[quarter], next);
+            } else {
+                node.children |= 1U << (6 + quarter);
+                cells_.push_back({at, quarters[quarter]});
+            }
+        }
+        put(texels_, texel, node);
+    }
+
+    static std::array<Points, 2> divide(Points points, Split split)
+    {
+        // Stable, as sums are to be of one order in all standard libraries.
+        const auto above =
+            split.axis == kGuideNoSplit ? points.end() : std::stable_partition(points.begin(), points.end(), [&](const GuidePoint& point) {
+                return point.p[static_cast<int>(split.axis)] < split.at;
+            });
+        return {Points(points.begin(), above), Points(above, points.end())};
+    }
+
+    // Of points that are to be more cells than one.
+    Split splitOf(Points points) const
+    {
+        if (points.size() <= cellRecords_) {
+            return {};
+        }
         vec3 low(std::numeric_limits<float>::infinity()), high(-low);
         for (const GuidePoint& point : points) {
             low = glm::min(low, point.p);
@@ -227,122 +376,68 @@ public:
         }
         const vec3 size = high - low;
         const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
-        const bool divides = points.size() > cellRecords_ && size[axis] > 0.0F;
-        if (!divides) {
-            nodes_[index] = {0.0F, kGuideLeaf, points.empty() ? 0 : static_cast<std::uint32_t>(cells_.size() + 1), 0};
-            if (!points.empty()) {
-                cells_.emplace_back().points = points;
-            }
-            return;
-        }
-        const float split = splitOf(points, axis, low[axis], high[axis]);
-        // Stable, as sums are to be of one order in all standard libraries.
-        const auto above =
-            std::stable_partition(points.begin(), points.end(), [&](const GuidePoint& point) { return point.p[axis] < split; });
-        const auto child = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.resize(nodes_.size() + 2);
-        nodes_[index] = {split, static_cast<std::uint32_t>(axis), child, 0};
-        build(child, Points(points.begin(), above));
-        build(child + 1, Points(above, points.end()));
+        return size[axis] > 0.0F ? Split{static_cast<std::uint32_t>(axis), placeOf(points, axis, low[axis], high[axis])} : Split{};
     }
 
-private:
-    // About the median; the middle of the box if that is at one of its sides, as if most points are on a wall across the axis: a split
-    // within the wall would be by rounding.
-    static float splitOf(Points points, int axis, float low, float high)
+    // The median; if that is in a wall across the axis, the middle of a gap beside it: within the wall, points would be parted by rounding.
+    static float placeOf(Points points, int axis, float low, float high)
     {
         std::vector<float> places;
         for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / kMedianRecords)) {
             places.push_back(points[i].p[axis]);
         }
-        const auto median = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-        std::nth_element(places.begin(), median, places.end());
-        const float margin = kWall * (high - low), middle = low + 0.5F * (high - low);
-        const float split = *median > low + margin && *median < high - margin ? *median : middle;
-        return split > low ? split : high;
+        std::ranges::sort(places);
+        const float median = places[places.size() / 2], margin = kWall * (high - low);
+        const auto begin = std::ranges::lower_bound(places, median - margin), end = std::ranges::upper_bound(places, median + margin);
+        const auto before = begin - places.begin(), after = places.end() - end;
+        if (static_cast<std::size_t>(end - begin) < places.size() / kWallShare) {
+            return median;
+        }
+        if (before == 0 && after == 0) {
+            return low + 0.5F * (high - low);
+        }
+        const float beside = before > after ? *(begin - 1) : *end;
+        return std::max(median, beside) - 0.5F * std::abs(median - beside);
     }
 
     std::size_t cellRecords_;
-    std::vector<GuideNode>& nodes_;
+    std::vector<uvec4>& texels_;
     std::vector<Cell>& cells_;
 };
 
-template <class T>
-void append(std::vector<uvec4>& texels, const T& value)
+// Of the trees over points, the cells, and after them their quadtrees.
+Guide pack(std::vector<uvec4> texels, const std::vector<Cell>& cells, double mean)
 {
-    static_assert(sizeof(T) % sizeof(uvec4) == 0);
-    const auto words = std::bit_cast<std::array<uvec4, sizeof(T) / sizeof(uvec4)>>(value);
-    texels.insert(texels.end(), words.begin(), words.end());
-}
-
-Guide pack(std::vector<GuideNode> nodes, const std::vector<Cell>& cells, double mean)
-{
-    auto at = static_cast<std::uint32_t>(nodes.size());
-    std::vector<std::uint32_t> places;
-    for (const Cell& cell : cells) {
-        places.push_back(at);
-        at += kGuideCellTexels + static_cast<std::uint32_t>(cell.quads.size());
-    }
     Guide guide;
-    guide.texels.reserve(at);
-    for (GuideNode& node : nodes) {
-        node.child = node.axis == kGuideLeaf && node.child > 0 ? places[node.child - 1] : node.child;
-        append(guide.texels, node);
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const Cell& cell = cells[i];
-        const std::uint32_t first = places[i] + kGuideCellTexels;
-        const auto radiance = static_cast<float>(mean > 0.0 ? cell.radiance / mean : 1.0);
-        const bool knows = !cell.quads.empty();
-        append(guide.texels, GuideCell{cell.center, cell.focus, knows ? first : kUniformQuadtree, knows ? kShare : 0.0F,
-                                       std::clamp(radiance, kLeastRadiance, kMostRadiance), static_cast<float>(cell.reflected)});
-        for (GuideQuad quad : cell.quads) {
-            quad.children += first << 4U;
-            append(guide.texels, quad);
+    for (const Cell& cell : cells) {
+        const bool guides = !cell.quads.empty();
+        const auto radiance = static_cast<float>(mean > 0.0 && !cell.points.empty() ? cell.radiance / mean : 1.0);
+        put(texels, cell.texel,
+            GuideCell{cell.center, cell.focus, guides ? static_cast<std::uint32_t>(texels.size()) : kUniformQuadtree, cell.sight,
+                      std::clamp(radiance, kLeastRadiance, kMostRadiance), static_cast<float>(cell.reflected)});
+        for (const GuideQuad& quad : cell.quads) {
+            texels.push_back(std::bit_cast<uvec4>(quad));
         }
+        guide.cells += cell.points.empty() ? 0 : 1;
     }
-    guide.cells = static_cast<std::uint32_t>(cells.size());
+    guide.texels = std::move(texels);
     Digest digest;
     digest.add(guide.texels);
     guide.digest = digest.finish().substr(0, 16);
     return guide;
 }
 
-}  // namespace
-
-// The roots, and a quadtree of uniform directions.
-std::vector<GuideNode> firstNodes()
+Guide buildGuide(std::span<std::vector<GuidePoint>, kGuideRoots> points)
 {
-    std::vector<GuideNode> nodes(kGuideRoots, GuideNode{0.0F, kGuideLeaf, 0, 0});
-    nodes.push_back(std::bit_cast<GuideNode>(GuideQuad{0.5F, glm::vec2(0.5F), 0}));
-    return nodes;
-}
-
-Guide emptyGuide() { return pack(firstNodes(), {}, 0.0); }
-
-void GuideBuilder::add(std::span<const GuideRecord> records)
-{
-    for (const GuideRecord& record : records) {
-        const float sum = record.value + record.direct + record.point.x + record.point.y + record.point.z;
-        if (record.throughput > 0.0F && std::isfinite(sum) && std::isfinite(record.throughput)) {
-            points_[rootOf(decodeDirection(record.normal))].push_back(
-                {record.point, record.direction, record.value / record.throughput, record.direct / record.throughput});
-        }
-    }
-}
-
-Guide GuideBuilder::build()
-{
-    std::size_t count = 0;
-    for (const std::vector<GuidePoint>& points : points_) {
-        count += points.size();
-    }
+    const std::size_t count =
+        std::accumulate(points.begin(), points.end(), std::size_t{0}, [](std::size_t sum, const auto& part) { return sum + part.size(); });
     const auto cellRecords = static_cast<std::size_t>(std::max(kLeastCellRecords, kCellRecords * std::sqrt(static_cast<double>(count))));
-    std::vector<GuideNode> nodes = firstNodes();
+    std::vector<uvec4> texels(kGuideBlockTexels);
+    put(texels, kUniformQuadtree, GuideQuad{kGuideHalves, kGuideHalves, kGuideHalves, 0});
     std::vector<Cell> cells;
-    TreeBuilder builder(cellRecords, nodes, cells);
+    TreeBuilder builder(cellRecords, texels, cells);
     for (std::uint32_t root = 0; root < kGuideRoots; ++root) {
-        builder.build(root, points_[root]);
+        builder.build(root, points[root]);
     }
     parallelFor(cells.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
         chooseFocus(cells[i]);
@@ -352,7 +447,27 @@ Guide GuideBuilder::build()
     for (const Cell& cell : cells) {
         sum += cell.radiance * static_cast<double>(cell.points.size());
     }
-    return pack(std::move(nodes), cells, count == 0 ? 0.0 : sum / static_cast<double>(count));
+    return pack(std::move(texels), cells, count == 0 ? 0.0 : sum / static_cast<double>(count));
 }
+
+}  // namespace
+
+Guide emptyGuide() { return GuideBuilder().build(); }
+
+void GuideBuilder::add(std::span<const GuideRecord> records)
+{
+    for (const GuideRecord& record : records) {
+        const float sampled = luminanceOf(record.direct);
+        const float sum = record.value + sampled + record.point.x + record.point.y + record.point.z;
+        if (record.throughput > 0.0F && std::isfinite(sum) && std::isfinite(record.throughput)) {
+            points_[rootOf(decodeDirection(record.normal))].push_back(
+                {record.point, record.direction, record.value / record.throughput,
+                 (std::bit_cast<std::uint32_t>(sampled / record.throughput) & ~kSampledLights) |
+                     (record.direct & (kSampledLights | kSampleBlocked))});
+        }
+    }
+}
+
+Guide GuideBuilder::build() { return buildGuide(points_); }
 
 }  // namespace glim

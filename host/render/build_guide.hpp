@@ -17,7 +17,7 @@ struct GuidePoint {
     vec3 p;
     std::uint32_t direction;  // as in GuideRecord
     float light;              // that the ray along it brought
-    float direct;             // of the light sample
+    std::uint32_t direct;     // its light sample, as in GuideRecord
 };
 
 // The order of the records is part of what a guide depends on.

@@ -23,7 +23,7 @@ constexpr std::uint32_t kPathsBetweenPauses = 8192;  // a twentieth of a second 
 constexpr std::uint32_t kFirstLearningSample = 0x80000000U;
 // A picture with less variance is done before learning pays.
 constexpr double kHard = 1.0;
-constexpr double kLookups = 1.45;  // time of a guided ray over that of another (tests/bench/guiding.md)
+constexpr double kLookups = 1.55;  // time of a guided ray over that of another (tests/bench/guiding.md)
 
 RenderSettings learningSettings(const RenderSettings& settings)
 {

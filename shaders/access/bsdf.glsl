@@ -110,7 +110,7 @@ float broadShare(Bsdf bsdf)
 // PathState::normal of a vertex, for the choice of lights.
 uint encodeReceiverNormal(Bsdf bsdf)
 {
-    return !hasFeature(kFeatureLightTree) ? 0u : transmitsDiffusely(bsdf) ? kNoReceiverNormal : encodeNormal(bsdf.frame.z);
+    return !hasFeature(kFeatureLightTree) && !kGuided ? 0u : transmitsDiffusely(bsdf) ? kNoReceiverNormal : encodeNormal(bsdf.frame.z);
 }
 
 vec3 decodeReceiverNormal(uint normal)

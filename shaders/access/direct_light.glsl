@@ -13,14 +13,18 @@
 LightContext makeLightContext(SurfaceInteraction si, Bsdf bsdf)
 {
     return LightContext(transmitsDiffusely(bsdf) ? si.p : offsetRayOrigin(si, si.ng), bsdf.frame.z,
-                        decodeReceiverNormal(encodeReceiverNormal(bsdf)));
+                        decodeReceiverNormal(encodeReceiverNormal(bsdf)), 0u);
 }
+
+// What is known of lights at a light context's point. The including file defines it: path_vertex.glsl, and course/direct_light.glsl for the
+// course.
+uint fetchSight(vec3 p, vec3 receiverNormal);
 
 // The context of the vertex that the path's ray has left.
 LightContext previousContext(PathRay ray, PathState state)
 {
     vec3 n = decodeReceiverNormal(state.normal);
-    return LightContext(ray.origin, n, n);
+    return LightContext(ray.origin, n, n, fetchSight(ray.origin, n));
 }
 
 // MIS weights. The including file defines them: path_vertex.glsl, and course/direct_light.glsl for the course. The first is of light that

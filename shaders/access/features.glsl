@@ -39,5 +39,6 @@ layout(constant_id = kSpecFolded) const bool kFolded = true;
 layout(constant_id = kSpecSuspects) const bool kSuspects = false;
 layout(constant_id = kSpecNotes) const bool kNotes = false;
 layout(constant_id = kSpecGuided) const bool kGuided = false;
+layout(constant_id = kSpecLearns) const bool kLearns = false;
 
 #endif

@@ -16,12 +16,13 @@ struct Guide {
     vec3 offset;  // from the cell's centre to the point
     float focus;
     uint quadtree;
-    float share;
+    float share;  // of directions that are sampled by the guide
     float radiance;
     float reflected;
+    uint sight;
 };
 
-const Guide kNoGuide = Guide(vec3(0.0), 0.0, kUniformQuadtree, 0.0, 1.0, 0.0);
+const Guide kNoGuide = Guide(vec3(0.0), 0.0, kUniformQuadtree, 0.0, 1.0, 0.0, 0u);
 
 uint guideRootOf(vec3 n)
 {
@@ -31,22 +32,55 @@ uint guideRootOf(vec3 n)
     return 2u * axis + (along < 0.0 ? 1u : 0u);
 }
 
+bool isAbove(vec3 p, uint axis, float split)
+{
+    return axis != kGuideNoSplit && (axis == 0u ? p.x : axis == 1u ? p.y : p.z) >= split;
+}
+
 Guide fetchGuide(vec3 p, vec3 n)
 {
-    uvec4 node = texelFetch(guideTexels, int(guideRootOf(n)));
-    while (node.y != kGuideLeaf) {
-        float along = node.y == 0u ? p.x : node.y == 1u ? p.y : p.z;
-        node = texelFetch(guideTexels, int(node.z + (along < uintBitsToFloat(node.x) ? 0u : 1u)));
+    uint at = guideRootOf(n);
+    bool isCell = false;
+    while (!isCell) {
+        uvec4 node = texelFetch(guideTexels, int(at));
+        bool upper = isAbove(p, node.w & 3u, uintBitsToFloat(node.x));
+        bool above = isAbove(p, node.w >> (upper ? 4u : 2u) & 3u, uintBitsToFloat(upper ? node.z : node.y));
+        uint quarter = (upper ? 2u : 0u) + (above ? 1u : 0u);
+        at = kGuideBlockTexels * (node.w >> 10u) + 2u * quarter;
+        isCell = (node.w >> (6u + quarter) & 1u) != 0u;
     }
-    if (node.z == 0u) {
-        return kNoGuide;
-    }
-    vec4 a = uintBitsToFloat(texelFetch(guideTexels, int(node.z)));
-    uvec4 b = texelFetch(guideTexels, int(node.z + 1u));
-    Guide guide = Guide(p - a.xyz, a.w, b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+    vec4 a = uintBitsToFloat(texelFetch(guideTexels, int(at)));
+    uvec4 b = texelFetch(guideTexels, int(at + 1u));
+    Guide guide = Guide(p - a.xyz, a.w, b.x, b.x != kUniformQuadtree ? kGuideShare : 0.0, uintBitsToFloat(b.z), uintBitsToFloat(b.w), b.y);
     // A point outside of its cell may be beyond the sphere.
     guide.focus = dot(guide.offset, guide.offset) < 0.8 * guide.focus * guide.focus ? guide.focus : 0.0;
     return guide;
+}
+
+// Where a descent has come to in the square of directions.
+struct GuidePlace {
+    vec2 corner;  // of the quadrant
+    vec2 inner;   // place in it, or random numbers that are left, in [0, 1)
+    float size, density;
+};
+
+// One level: goes to a quadrant and returns its number. `square`: number of the words for what is divided.
+uint enterQuadrant(uvec4 quad, uint square, bool samples, inout GuidePlace place)
+{
+    uint shift = 6u * square;
+    float lowX = guideProbability(quad.x >> shift & 63u);
+    float split = samples ? lowX : 0.5;
+    bool highX = place.inner.x >= split;
+    place.inner.x = (place.inner.x - (highX ? split : 0.0)) / (highX ? 1.0 - split : split);
+    float lowY = guideProbability((highX ? quad.z : quad.y) >> shift & 63u);
+    split = samples ? lowY : 0.5;
+    bool highY = place.inner.y >= split;
+    place.inner.y = (place.inner.y - (highY ? split : 0.0)) / (highY ? 1.0 - split : split);
+    place.inner = min(place.inner, 0.99999994);
+    place.density *= 4.0 * (highX ? 1.0 - lowX : lowX) * (highY ? 1.0 - lowY : lowY);
+    place.size *= 0.5;
+    place.corner += vec2(highX ? place.size : 0.0, highY ? place.size : 0.0);
+    return (highX ? 1u : 0u) + (highY ? 2u : 0u);
 }
 
 // Descends the guide's quadtree: to the leaf where `at` is in the square of directions or, if it samples, to a leaf by the random numbers `at`.
@@ -54,29 +88,18 @@ Guide fetchGuide(vec3 p, vec3 n)
 // device want the one and the other.
 float descendGuide(Guide guide, bool samples, inout vec2 at)
 {
-    vec2 corner = vec2(0.0), inner = at;
-    float size = 1.0, density = 1.0;
-    uint node = guide.quadtree << 4u | 1u, quadrant = 0u;
-    while ((node >> quadrant & 1u) != 0u) {
-        uint before = bitCount(node & ((1u << quadrant) - 1u));
-        uvec4 quad = texelFetch(guideTexels, int((node >> 4u) + before));
-        vec3 low = uintBitsToFloat(quad.xyz);
-        float split = samples ? low.x : 0.5;
-        bool highX = inner.x >= split;
-        inner.x = (inner.x - (highX ? split : 0.0)) / (highX ? 1.0 - split : split);
-        float lowY = highX ? low.z : low.y;
-        split = samples ? lowY : 0.5;
-        bool highY = inner.y >= split;
-        inner.y = (inner.y - (highY ? split : 0.0)) / (highY ? 1.0 - split : split);
-        inner = min(inner, 0.99999994);
-        density *= 4.0 * (highX ? 1.0 - low.x : low.x) * (highY ? 1.0 - lowY : lowY);
-        size *= 0.5;
-        corner += vec2(highX ? size : 0.0, highY ? size : 0.0);
-        quadrant = (highX ? 1u : 0u) + (highY ? 2u : 0u);
-        node = quad.w;
+    GuidePlace place = GuidePlace(vec2(0.0), at, 1.0, 1.0);
+    uint node = guide.quadtree;
+    bool divided = true;
+    while (divided) {
+        uvec4 quad = texelFetch(guideTexels, int(node));
+        uint first = enterQuadrant(quad, 0u, samples, place);
+        uint quadrant = 4u * first + enterQuadrant(quad, 1u + first, samples, place);
+        divided = (quad.w >> quadrant & 1u) != 0u;
+        node = guide.quadtree + (quad.w >> 16u) + bitCount(quad.w & ((1u << quadrant) - 1u));
     }
-    at = corner + size * inner;
-    return density;
+    at = place.corner + place.size * place.inner;
+    return place.density;
 }
 
 // A direction, and the guide's density for it per steradian.

@@ -16,6 +16,11 @@ uint recordAt(uint slot, float number)
     return slot * kGuideRecords + uint(number) - 1u;
 }
 
+uint packDirect(float luminance, uint lights, bool arrived)
+{
+    return (floatBitsToUint(luminance) & ~(kSampledLights | kSampleBlocked)) | lights | (arrived ? 0u : kSampleBlocked);
+}
+
 void clearRecords(uint slot)
 {
     for (uint i = 0u; i < kGuideRecords; ++i) {
@@ -31,10 +36,12 @@ void addToRecord(uint slot, float number, vec3 light)
     }
 }
 
+// The light sample of its vertex has arrived.
 void addDirect(uint slot, float number, vec3 light)
 {
     if (number > 0.0) {
-        guideRecords[recordAt(slot, number)].direct += computeLuminance(light);
+        uint at = recordAt(slot, number);
+        guideRecords[at].direct = packDirect(computeLuminance(light), guideRecords[at].direct & kSampledLights, true);
     }
 }
 

@@ -13,6 +13,7 @@ struct LightContext {
     vec3 p;   // origin of shadow rays on ng's side: only by this offset is a point on a sphere light's wall inside the light
     vec3 ns;  // unit
     vec3 receiverNormal;  // ns as PathState has it, to the same bits in both cases; 0 at a surface that transmits, where both sides count
+    uint sight;           // what a guide knows of lights there (shared/guide_types.h); 0: nothing
 };
 
 uint childCount(LightNode node)
@@ -29,7 +30,7 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
     LightNode node = fetchLightNode(0u);
     float u = unitFloat(bits), probability = 1.0;
     bool draws = light == kNoLightIndex;
-    uint level = 0u, sibling = 0u;
+    uint level = 0u, sibling = 0u, part = 0u;
     if (!isSmallCluster(node, context.p)) {
     do {
         uint first = node.children & ((1u << kLightChildBits) - 1u), count = childCount(node);
@@ -39,6 +40,7 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
         do {
             LightNode child = fetchLightNode(first + i);
             float importance = lightImportance(child, context.p, context.receiverNormal);
+            importance *= kGuided && level == 0u ? computeSight(context.sight, i) : 1.0;
             importances[i] = importance;
             sum += importance;
             bool takes = !draws && child.firstLight <= light;
@@ -62,18 +64,20 @@ LightChoice walkLightTree(LightContext context, uint bits, uint light)
         probability *= chosen / sum;
         sibling = at + 1u < count ? first + at + 1u : sibling;
         node = fetchLightNode(first + at);
+        part = level == 0u ? at : part;
         ++level;
         if (level % kLevelsPerWord == 0u) {
             u = unitFloat(hash4(uvec4(bits, level, 0u, 0u)).x);
         }
     } while (childCount(node) > 0u && !isSmallCluster(node, context.p));
     }
-    LightChoice choice = LightChoice(node.firstLight, probability);
+    LightChoice choice = LightChoice(node.firstLight, probability, part);
     if (hasFeature(kFeatureLightClusters) && childCount(node) > 0u) {
         uint end = sibling > 0u ? fetchLightNode(sibling).firstLight : render.finiteLights;
         LightCluster cluster = LightCluster(node.firstLight, end, context.p - node.center);
         choice = chooseInCluster(cluster, u, light);
         choice.probability *= probability;
+        choice.part = part;
     }
     return choice;
 }
@@ -85,7 +89,12 @@ float finiteShareAt(LightContext context)
     float share = hasFeature(kFiniteLights) && render.finiteLights > 0u ? 1.0 : 0.0;
     if (hasFeature(kFeatureLightTree) && hasFeature(kInfiniteLights) && render.infiniteImportance > 0.0 && share > 0.0) {
         float importance = lightImportance(fetchLightNode(0u), context.p, context.receiverNormal);
-        share = 0.1 + 0.8 * importance / (importance + render.infiniteImportance);
+        float infinite = render.infiniteImportance;
+        if (kGuided) {
+            importance *= computeSight(context.sight, kSightOfFinite);
+            infinite *= computeSight(context.sight, kSightOfInfinite);
+        }
+        share = 0.1 + 0.8 * importance / (importance + infinite);
     }
     return share;
 }
@@ -99,7 +108,7 @@ float mixedProbability(float finiteShare, float byImportance)
 // The first infinite light for which u in [0, 1) is below the sum of probabilities.
 LightChoice chooseInfiniteLight(float u)
 {
-    LightChoice choice = LightChoice(render.finiteLights - 1u, 0.0);
+    LightChoice choice = LightChoice(render.finiteLights - 1u, 0.0, kSightOfInfinite);
     float sum = 0.0;
     bool more;
     do {
@@ -111,11 +120,18 @@ LightChoice chooseInfiniteLight(float u)
     return choice;
 }
 
+// Of sampling a light at all. Paths that learn always do, or no guide would know of a light again that one has called dark.
+float sampleShareAt(LightContext context)
+{
+    return kGuided && !kLearns ? lightSampleShare(context.sight) : 1.0;
+}
+
 // Two random words.
 LightChoice chooseLight(LightContext context, uvec2 bits)
 {
-    float u = unitFloat(bits.y), finiteShare = finiteShareAt(context);
-    LightChoice choice = LightChoice(0u, 1.0);
+    float sampleShare = sampleShareAt(context);
+    float u = unitFloat(bits.y) / sampleShare, finiteShare = finiteShareAt(context);
+    LightChoice choice = LightChoice(0u, 1.0, 0u);
     bool finite = !hasFeature(kInfiniteLights) || (hasFeature(kFiniteLights) && u < finiteShare);
     if (finite) {
         choice.probability = finiteShare;
@@ -129,17 +145,19 @@ LightChoice chooseLight(LightContext context, uvec2 bits)
         choice = chooseInfiniteLight((u - finiteShare) / (1.0 - finiteShare));
         choice.probability *= 1.0 - finiteShare;
     }
+    choice.probability *= u < 1.0 ? sampleShare : 0.0;
     return choice;
 }
 
 // The probability with which chooseLight chooses a light, to the same bits.
 float computeLightProbability(LightContext context, uint light)
 {
-    float finiteShare = finiteShareAt(context);
+    float finiteShare = finiteShareAt(context), sampleShare = sampleShareAt(context);
     if (hasFeature(kInfiniteLights) && light >= render.finiteLights) {
-        return fetchLight(light).probability * (1.0 - finiteShare);
+        return fetchLight(light).probability * (1.0 - finiteShare) * sampleShare;
     }
-    return hasFeature(kFeatureLightTree) ? mixedProbability(finiteShare, walkLightTree(context, 0u, light).probability) : finiteShare;
+    float share = hasFeature(kFeatureLightTree) ? mixedProbability(finiteShare, walkLightTree(context, 0u, light).probability) : finiteShare;
+    return share * sampleShare;
 }
 
 #endif

@@ -7,13 +7,15 @@
 
 #include "parameters.glsl"
 #include "scene.glsl"
+#include "shared/guide_types.h"
 
 // Squared radius over squared distance below which a cluster is small.
 const float kSmallCluster = 0.03;
 
 struct LightChoice {
     uint light;
-    float probability;
+    float probability;  // 0: none is to be sampled
+    uint part;          // of the light tree: the child of its root; or kSightOfInfinite
 };
 
 // Some lights, one behind the other in the tree's order, and the direction from them to a point.
@@ -64,7 +66,7 @@ LightChoice chooseInCluster(LightCluster cluster, float u, uint light)
         light = low;
     }
     vec3 part = powersTowards(light, light + 1u, cluster.towards);
-    return LightChoice(light, (part.x + part.y + part.z) / sum);
+    return LightChoice(light, (part.x + part.y + part.z) / sum, 0u);
 }
 
 #endif

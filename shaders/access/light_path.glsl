@@ -33,7 +33,7 @@ LightChoice chooseCausticLight(uint word)
         entry = texelFetch(sceneCaustics, int(kFirstCausticLight + middle));
         going = searchesOn(entry, word, middle, low, high);
     } while (going);
-    return LightChoice(middle, (float(entry.y - entry.x) + 1.0) * (1.0 / 4294967296.0));
+    return LightChoice(middle, (float(entry.y - entry.x) + 1.0) * (1.0 / 4294967296.0), 0u);
 }
 
 // A direction to one of the targets, chosen by importance; and its density per steradian, by any of them. 0: the emitter reaches no target.

@@ -20,6 +20,8 @@ struct LearnedVertex {
     vec3 point, normal;
     vec3 throughput;  // of what the vertex sends out; 0: the path has ended on arrival
     vec3 known;       // light that the guide expects it to send out, besides that of light samples
+    vec3 sampled;     // light of its light sample, if nothing is in the way
+    uint lights;      // of which that is
     bool isNarrow;    // what it sends out comes from one direction, as that of a mirror
 };
 
@@ -87,10 +89,29 @@ bool survivesArrival(Guide guide, float u, inout PathState state)
     return survives;
 }
 
-LightSample sampleDirectLight(SampleId id, SurfaceInteraction si, Bsdf bsdf, uint bounce, out uint group)
+// A surface that transmits has none: lights are then sampled from another point than rays leave from.
+uint fetchSight(vec3 p, vec3 receiverNormal)
 {
-    LightContext context = makeLightContext(si, bsdf);
-    LightChoice choice = chooseLight(id, context, bounce);
+    return kGuided && receiverNormal != vec3(0.0) ? fetchGuide(p, receiverNormal).sight : 0u;
+}
+
+// At a surface. Also tells light contexts what it knows of lights.
+Guide fetchGuide(Bsdf bsdf, inout LightContext context)
+{
+    bool transmits = context.receiverNormal == vec3(0.0);
+    Guide guide = fetchGuide(context.p, transmits ? bsdf.frame.z : context.receiverNormal);
+    guide.share *= broadShare(bsdf);
+    context.sight = transmits ? 0u : guide.sight;
+    return guide;
+}
+
+LightSample sampleDirectLight(SampleId id, LightContext context, uint bounce, out LightChoice choice, out uint group)
+{
+    choice = chooseLight(id, context, bounce);
+    group = 0u;
+    if (kGuided && !(choice.probability > 0.0)) {
+        return kNoLight;
+    }
     noteLight(choice.light);
     group = hasFeature(kFeatureLightGroups) ? lightGroupOf(fetchLight(choice.light).kind) : 0u;
     return sampleChosenLight(id, choice, context, bounce);
@@ -136,21 +157,22 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     }
     result.firstHit = makeFirstHit(si, material.data, wo);
     BounceNumbers u = sampleBounceNumbers(id, state.bounce);
+    LightContext lightContext = makeLightContext(si, bsdf);
     Guide guide = kNoGuide;
     bool survives = true;
     if (kGuided) {
         if (hasNonDelta(bsdf)) {
-            guide = fetchGuide(si.p, bsdf.frame.z);
-            guide.share *= broadShare(bsdf);
+            guide = fetchGuide(bsdf, lightContext);
         }
-        result.learned = LearnedVertex(si.p, bsdf.frame.z, vec3(0.0), state.throughput * guide.reflected, false);
+        result.learned = LearnedVertex(si.p, bsdf.frame.z, vec3(0.0), state.throughput * guide.reflected, vec3(0.0), 0u, false);
         survives = survivesArrival(guide, u.roulette, state);
         result.learned.throughput = survives ? state.throughput : vec3(0.0);
     }
     bool samples = samplesLights(state.bounce, render.maxBounces, render.minPathLength, render.lightCount) && hasNonDelta(bsdf) && survives;
     LightSample light = kNoLight;
+    LightChoice choice = LightChoice(0u, 0.0, 0u);
     if (samples) {
-        light = sampleDirectLight(id, si, bsdf, state.bounce, result.shadowGroup);
+        light = sampleDirectLight(id, lightContext, state.bounce, choice, result.shadowGroup);
     }
     BsdfPair pair;
     float bsdfPdf;  // of the next direction
@@ -163,6 +185,10 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
     result.hasShadowRay = samples && makeShadowRay(si, light, pair.light, state, result.shadowRay);
     if (hasFeature(kFeatureMedia) && result.hasShadowRay) {
         result.shadowRay.contribution *= mediaTransmittance(ray.media, si, bsdf.medium, result.shadowRay);
+    }
+    if (kLearns) {
+        result.learned.sampled = result.hasShadowRay ? result.shadowRay.contribution : vec3(0.0);
+        result.learned.lights = choice.part;
     }
     result.state = state;
     result.hasNextRay = survives && state.bounce < render.maxBounces && continuePath(pair.next, u, si, bsdf, ray.media, result.ray, result.state);

@@ -76,7 +76,8 @@ float openRecord(inout Path path, LearnedVertex vertex, vec3 wi)
     }
     float number = path.light.radiance.b += 1.0;
     guideRecords[recordAt(path.slot, number)] =
-        GuideRecord(vertex.point, 0.0, encodeNormal(wi), encodeNormal(vertex.normal), computeLuminance(vertex.throughput), 0.0);
+        GuideRecord(vertex.point, 0.0, encodeNormal(wi), encodeNormal(vertex.normal), computeLuminance(vertex.throughput),
+                    packDirect(computeLuminance(vertex.sampled), vertex.lights, false));
     return number;
 }
 

@@ -92,6 +92,7 @@ GLIM_CONST uint kSpecSuspects = 17u;        // each pixel's brightest sample is 
 GLIM_CONST uint kSpecNotes = 18u;           // the kernels note what they find out about the only path of a pass
 GLIM_CONST uint kSpecMovingCamera = 19u;    // while the shutter is open
 GLIM_CONST uint kSpecGuided = 20u;          // paths are guided
+GLIM_CONST uint kSpecLearns = 28u;          // paths learn a guide: they sample lights wherever they can
 GLIM_CONST uint kSpecStackLevels = 23u;     // as many as the BVH needs
 GLIM_CONST uint kSpecTexelViews = 24u;      // as many as the textures need
 GLIM_CONST uint kSpecPathsPerThread = 25u;  // of the device's class

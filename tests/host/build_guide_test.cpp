@@ -16,20 +16,26 @@ GuideCell cellAt(const Guide& guide, std::uint32_t texel)
     return std::bit_cast<GuideCell>(std::array<uvec4, 2>{guide.texels[texel], guide.texels[texel + 1]});
 }
 
-std::uint32_t cellsUnder(const Guide& guide, std::uint32_t texel)
+// Of a root that is not divided.
+GuideCell onlyCell(const Guide& guide, std::uint32_t root)
 {
-    const GuideNode node = nodeAt(guide, texel);
-    return node.axis == kGuideLeaf ? (node.child > 0 ? 1 : 0) : cellsUnder(guide, node.child) + cellsUnder(guide, node.child + 1);
+    const GuideNode node = nodeAt(guide, root);
+    EXPECT_EQ(node.children & 3U, kGuideNoSplit);
+    EXPECT_NE(node.children >> 6U & 1U, 0U) << "the first quarter is a cell";
+    return cellAt(guide, kGuideBlockTexels * (node.children >> 10U));
 }
 
 TEST(BuildGuideTest, WithoutRecordsItGuidesNobody)
 {
     for (const Guide& guide : {emptyGuide(), guideOf({})}) {
         EXPECT_EQ(guide.cells, 0U);
-        ASSERT_EQ(guide.texels.size(), kGuideRoots + 1);
         for (std::uint32_t root = 0; root < kGuideRoots; ++root) {
-            EXPECT_EQ(nodeAt(guide, root).axis, kGuideLeaf);
-            EXPECT_EQ(nodeAt(guide, root).child, 0U);
+            const GuideCell cell = onlyCell(guide, root);
+            EXPECT_EQ(cell.quadtree, kUniformQuadtree);
+            EXPECT_EQ(cell.focus, 0.0F);
+            EXPECT_EQ(cell.sight, 0U);
+            EXPECT_EQ(cell.radiance, 1.0F);
+            EXPECT_EQ(cell.reflected, 0.0F);
         }
     }
     EXPECT_EQ(emptyGuide().digest, guideOf({}).digest);
@@ -43,10 +49,12 @@ TEST(BuildGuideTest, LeavesOutWhatIsNoRecord)
     GuideRecord none = records[7];
     none.throughput = 0.0F;
     records.push_back(none);
-    for (float GuideRecord::*field : {&GuideRecord::value, &GuideRecord::direct, &GuideRecord::throughput}) {
+    for (float GuideRecord::*field : {&GuideRecord::value, &GuideRecord::throughput}) {
         for (const float broken : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
             records.push_back(records[7]);
             records.back().*field = broken;
+            records.push_back(records[7]);
+            records.back().direct = std::bit_cast<std::uint32_t>(broken);
         }
     }
     records.push_back(records[7]);
@@ -64,9 +72,9 @@ TEST(BuildGuideTest, DividesPointsOfParallelWalls)
         records[i].normal = encodeDirection({1, 0, 0});
     }
     const Guide guide = guideOf(records);
-    EXPECT_GE(cellsUnder(guide, 0), 60000U / 2048U);
+    EXPECT_GE(guide.cells, 60000U / 2048U);
     const GuideNode root = nodeAt(guide, 0);
-    EXPECT_EQ(root.axis, 0U);
+    EXPECT_EQ(root.children & 3U, 0U);
     EXPECT_NEAR(root.split, 0.0F, 3.9F) << "between the walls";
 }
 
@@ -80,10 +88,10 @@ TEST(BuildGuideTest, PointsAtOnePlaceAreOneCell)
     }
     const Guide guide = guideOf(records);
     EXPECT_EQ(guide.cells, 1U);
-    const GuideCell cell = cellAt(guide, nodeAt(guide, 5).child);
+    const GuideCell cell = onlyCell(guide, 5);
     EXPECT_EQ(cell.center, vec3(1.0F, 2.0F, 3.0F));
     EXPECT_EQ(cell.focus, 0.0F) << "there is no parallax";
-    EXPECT_EQ(cell.share, 0.7F);
+    EXPECT_GT(cell.quadtree, kUniformQuadtree);
     EXPECT_FLOAT_EQ(cell.radiance, 1.0F) << "of the mean, which it is";
     EXPECT_FLOAT_EQ(cell.reflected, 1.0F);
 }
@@ -101,9 +109,39 @@ TEST(BuildGuideTest, FocusesOnWhatIsNear)
     }
     const Guide guide = guideOf(records);
     ASSERT_EQ(guide.cells, 1U);
-    const float focus = cellAt(guide, nodeAt(guide, 0).child).focus;
+    const float focus = onlyCell(guide, 0).focus;
     EXPECT_GT(focus, 1.1F);
     EXPECT_LT(focus, 2.4F);
+}
+
+// Of lights: those of part 0 always arrive, those of part 3 never, infinite ones every fourth time.
+TEST(BuildGuideTest, KnowsWhichLightsAreSeen)
+{
+    Random random(6);
+    std::vector<GuideRecord> records = recordsOfBall(2000, random);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const std::uint32_t lights = i % 3 == 0 ? 0 : i % 3 == 1 ? 3 : kSightOfInfinite;
+        const bool arrives = lights == 0 || (lights == kSightOfInfinite && i % 12 == 2);
+        records[i].normal = encodeDirection({0, 1, 0});
+        records[i].direct = packDirect(1.0F, lights, arrives);
+    }
+    const GuideCell cell = onlyCell(guideOf(records), 2);
+    EXPECT_EQ(computeSight(cell.sight, 0), 1.0F);
+    EXPECT_EQ(computeSight(cell.sight, 1), 1.0F) << "of which nothing is known";
+    EXPECT_LT(computeSight(cell.sight, 3), 0.1F);
+    EXPECT_GT(computeSight(cell.sight, 3), 0.0F);
+    EXPECT_FLOAT_EQ(computeSight(cell.sight, kSightOfInfinite), 0.70710678F) << "the root of a quarter, and of what three records may hide";
+    EXPECT_FLOAT_EQ(computeSight(cell.sight, kSightOfFinite), 1.0F) << "half";
+    EXPECT_EQ(lightSampleShare(cell.sight), 1.0F);
+    // 1.25 / 3 of the records have 1, all have 1 from the next ray.
+    EXPECT_FLOAT_EQ(cell.radiance, 1.0F);
+    EXPECT_FLOAT_EQ(cell.reflected, 1.0F);
+    for (GuideRecord& record : records) {
+        record.direct |= kSampleBlocked;
+    }
+    const GuideCell dark = onlyCell(guideOf(records), 2);
+    EXPECT_EQ(lightSampleShare(dark.sight), 0.125F);
+    EXPECT_LT(computeSight(dark.sight, kSightOfFinite), 0.1F);
 }
 
 TEST(BuildGuideTest, FewRecordsGuideNobody)
@@ -115,8 +153,7 @@ TEST(BuildGuideTest, FewRecordsGuideNobody)
     }
     const Guide guide = guideOf(records);
     ASSERT_EQ(guide.cells, 1U);
-    const GuideCell cell = cellAt(guide, nodeAt(guide, 2).child);
-    EXPECT_EQ(cell.share, 0.0F);
+    const GuideCell cell = onlyCell(guide, 2);
     EXPECT_EQ(cell.quadtree, kUniformQuadtree) << "it has none of its own";
 }
 

@@ -38,7 +38,9 @@ void main()
         SurfaceMaterial material = makeSurfaceMaterial(si);
         Bsdf bsdf = makeBsdf(si, material, c.ns);
         uint group;
-        LightSample light = sampleDirectLight(SampleId(render.seed, TEST_THREAD, 0u), si, bsdf, c.state.bounce, group);
+        LightChoice choice;
+        SampleId id = SampleId(render.seed, TEST_THREAD, 0u);
+        LightSample light = sampleDirectLight(id, makeLightContext(si, bsdf), c.state.bounce, choice, group);
         bool asks = makeShadowRay(si, light, evalBsdf(bsdf, c.ns, light.wi), c.state, shadow);
         PathRay ray = PathRay(c.point, kNoPrimitive, c.towards, 0u);
         PathHit hit = traceClosest(ray);

@@ -20,12 +20,12 @@ void main()
         uint slot = TEST_THREAD;
         clearRecords(slot);
         for (uint i = 1u; i <= c.opened; ++i) {
-            guideRecords[recordAt(slot, float(i))] = GuideRecord(vec3(i), 0.5, i, slot, 1.0, 0.25);
+            guideRecords[recordAt(slot, float(i))] = GuideRecord(vec3(i), 0.5, i, slot, 1.0, packDirect(0.25, i, false));
         }
         for (uint i = 0u; i < 2u; ++i) {  // light adds up
             addToRecord(slot, c.lit, c.light);
-            addDirect(slot, c.sampled, c.direct);
         }
+        addDirect(slot, c.sampled, c.direct);
     }
     endTest();
 }

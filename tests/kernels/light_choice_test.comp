@@ -7,6 +7,7 @@
 struct Case {
     vec3 p;
     vec3 receiverNormal;
+    uint sight;
 };
 
 struct Result {
@@ -24,6 +25,10 @@ void drawLight(LightContext context)
 {
     uvec4 bits = hash4(uvec4(TEST_THREAD, 0u, 0u, render.seed));
     LightChoice choice = chooseLight(context, bits.xy);
+    if (choice.probability == 0.0) {
+        results[TEST_THREAD] = Result(kNoLightIndex, 0.0, kNoPrimitive, vec3(0.0), 0u);
+        return;
+    }
     EXPECT_TRUE(choice.light < render.lightCount);
     // To the same bits, or MIS weights of a light that is sampled and of one that is hit do not add up.
     EXPECT_TRUE(choice.probability == computeLightProbability(context, choice.light));
@@ -43,6 +48,6 @@ void drawLight(LightContext context)
 void main()
 {
     Case c = cases[TEST_THREAD / pass.sampleCount];
-    drawLight(LightContext(c.p, c.receiverNormal == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : c.receiverNormal, c.receiverNormal));
+    drawLight(LightContext(c.p, c.receiverNormal == vec3(0.0) ? vec3(0.0, 1.0, 0.0) : c.receiverNormal, c.receiverNormal, c.sight));
     endTest();
 }

@@ -1,5 +1,7 @@
 // Which light is chosen for a point: probabilities, their sum, how well they follow what arrives, and the cases in which other renderers'
 // trees went wrong.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/guide_types.h"
 #include "test_kernels.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
@@ -29,6 +31,7 @@ constexpr std::size_t kFamily = 60;
 struct Receiver {
     vec3 p;
     vec3 receiverNormal;  // 0: light from all sides counts
+    std::uint32_t sight = 0;
 };
 
 struct Result {
@@ -42,6 +45,7 @@ struct Result {
 std::vector<Result> draw(const SceneOnDevice& scene, const std::vector<Receiver>& receivers)
 {
     KernelTest test = scene.test(test_kernels::light_choice_test);
+    test.specialize(kSpecGuided, receivers.front().sight != 0 ? 1 : 0);
     const auto threads = static_cast<std::uint32_t>(receivers.size()) * kDraws;
     test.pass().sampleCount = kDraws;
     test.cases(receivers).resultsOf<Result>(threads).threads(threads).run();
@@ -55,6 +59,7 @@ std::vector<std::vector<double>> probabilities(const SceneOnDevice& scene, const
     std::vector<std::vector<double>> found;
     for (const Receiver& receiver : receivers) {
         KernelTest test = scene.test(test_kernels::light_probability_test);
+        test.specialize(kSpecGuided, receiver.sight != 0 ? 1 : 0);
         test.cases(std::vector<Receiver>{receiver}).resultsOf<float>(lights).threads(lights).run();
         const std::vector<float> row = test.results<float>();
         found.emplace_back(row.begin(), row.end());
@@ -71,7 +76,7 @@ double sumOf(const std::vector<double>& values)
     return sum;
 }
 
-// Probabilities add up to 1, are positive, and are those that lights are drawn with.
+// Probabilities add up to that of sampling a light at all, are positive, and are those that lights are drawn with.
 void expectDistribution(const std::string& name, const Scene& scene, const std::vector<Receiver>& receivers)
 {
     const SceneOnDevice onDevice(scene);
@@ -79,14 +84,21 @@ void expectDistribution(const std::string& name, const Scene& scene, const std::
     const std::vector<Result> drawn = draw(onDevice, receivers);
     for (std::size_t r = 0; r < receivers.size(); ++r) {
         const std::string what = name + ", receiver " + std::to_string(r);
-        EXPECT_NEAR(sumOf(expected[r]), 1.0, 1e-5) << what;
+        const double sampled = static_cast<double>(lightSampleShare(receivers[r].sight));
+        EXPECT_NEAR(sumOf(expected[r]), sampled, 1e-5) << what;
         EXPECT_GT(*std::ranges::min_element(expected[r]), 0.0) << what;
-        std::vector<double> counts(expected[r].size(), 0.0), shares = expected[r];
+        std::vector<double> counts(expected[r].size() + 1, 0.0), shares = expected[r];  // the last one: of no light
         for (std::size_t i = 0; i < kDraws; ++i) {
-            counts[drawn[r * kDraws + i].light] += 1.0;
+            counts[std::min<std::size_t>(drawn[r * kDraws + i].light, expected[r].size())] += 1.0;
         }
         for (double& share : shares) {
-            share *= kDraws / sumOf(expected[r]);
+            share *= sampled * kDraws / sumOf(expected[r]);
+        }
+        shares.push_back((1.0 - sampled) * kDraws);
+        if (sampled == 1.0) {
+            EXPECT_EQ(counts.back(), 0.0) << what;
+            counts.pop_back();
+            shares.pop_back();
         }
         expectCounts(what, counts, shares, kFamily);
     }
@@ -126,6 +138,42 @@ TEST(LightChoiceTest, DrawsWithTheProbabilitiesThatItStates)
 {
     for (const std::uint32_t count : {2U, 5U, 16U, 17U, 200U}) {
         expectDistribution(std::to_string(count) + " lights", randomLights(count), kReceivers);
+    }
+}
+
+// What a guide knows of lights: those that are seldom seen are chosen less often, and where light samples bring little there are fewer.
+TEST(LightChoiceTest, AGuidesSightChangesProbabilities)
+{
+    std::mt19937 random(9);
+    std::vector<Receiver> receivers = kReceivers;
+    for (Receiver& receiver : receivers) {
+        receiver.sight = std::max(1U, static_cast<std::uint32_t>(random()));
+    }
+    for (const std::uint32_t count : {2U, 17U, 200U}) {
+        expectDistribution(std::to_string(count) + " lights by sight", randomLights(count), receivers);
+    }
+    SceneBuilder builder;
+    for (const float x : {-1.0F, 2.0F}) {
+        builder.quad({vec3(x, 2, -1), {x + 1, 2, -1}, {x + 1, 2, 1}, {x, 2, 1}}, builder.lambert(vec3(0.0F), vec3(1.0F)));
+    }
+    const SceneOnDevice two(builder.environment(vec3(0.25F)).scene());
+    const auto with = [&](std::uint32_t sight) { return probabilities(two, {{kReceivers[0].p, kReceivers[0].receiverNormal, sight}})[0]; };
+    const std::vector<double> plain = with(0), first = with(2), finite = with(2U << (3 * kSightOfFinite)),
+                              infinite = with(2U << (3 * kSightOfInfinite)), rarer = with(2U << 30U);
+    ASSERT_EQ(plain.size(), 3U);
+    // Half the importance, of what does not ignore it.
+    const auto byImportance = [](double p, const std::vector<double>& all) {
+        return p / (all[0] + all[1]) - 0.5 * static_cast<double>(kUniformShare);
+    };
+    const double oddsOfFirst = byImportance(first[0], first) / byImportance(first[1], first);
+    const double odds = byImportance(plain[0], plain) / byImportance(plain[1], plain);
+    EXPECT_TRUE(std::abs(oddsOfFirst / odds - 0.5) < 1e-5 || std::abs(oddsOfFirst / odds - 2.0) < 1e-5)
+        << "the tree has an order of its own";
+    const auto oddsOfInfinite = [](const std::vector<double>& p) { return (p[2] - 0.1) / (p[0] + p[1] - 0.1); };
+    EXPECT_NEAR(oddsOfInfinite(finite) / oddsOfInfinite(plain), 2.0, 1e-5);
+    EXPECT_NEAR(oddsOfInfinite(infinite) / oddsOfInfinite(plain), 0.5, 1e-5);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(rarer[i], 0.25 * plain[i], 1e-7);
     }
 }
 

@@ -69,7 +69,7 @@ void comparePdf(Receiver receiver, LightSample light, inout Result result)
     float cosine = abs(dot(met.ng, light.wi));
     // Nearer to grazing the rounding of the directions alone is more than the tolerance.
     if (cosine > 3e-3) {
-        LightContext context = LightContext(origin, receiver.surface.ns, receiver.surface.ns);
+        LightContext context = LightContext(origin, receiver.surface.ns, receiver.surface.ns, 0u);
         float pdf = pdfSurfaceLight(context, met.light - 1u, hit.t, cosine);
         result.pdfError = max(result.pdfError, abs(pdf - light.pdf) / light.pdf);
         ++result.compared;
@@ -85,7 +85,7 @@ void main()
     for (uint i = 0u; i < render.maxBounces; ++i) {
         uvec4 a = hash4(uvec4(TEST_THREAD, i, 0u, render.seed));
         // At the point itself, for which the host knows the irradiance; makeLightContext moves it by its error bound.
-        LightContext context = LightContext(receiver.surface.p, receiver.surface.ns, receiver.surface.ns);
+        LightContext context = LightContext(receiver.surface.p, receiver.surface.ns, receiver.surface.ns, 0u);
         LightChoice choice = chooseLight(context, a.xy);
         LightSample light = sampleLight(fetchLight(choice.light), choice.probability, context, a.zw);
         float one = estimate(receiver, light);

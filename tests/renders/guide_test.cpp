@@ -210,7 +210,7 @@ TEST(GuideRenderTest, AWrongGuideChangesNoMean)
     std::vector<GuideRecord> records = recordsOfBall(100000, random);
     for (GuideRecord& record : records) {
         record.point = vec3(4.05F, 1.5F, 2.0F) * (1.0F + record.point);
-        record.direct = record.point.x < 4.0F ? 1.0F : 1e-4F;
+        record.direct = packDirect(1.0F, 0, record.point.x < 4.0F);
     }
     const Scene scene = doorAjar();
     RenderSettings settings = squareSettings(kSide, 4096);
@@ -218,6 +218,31 @@ TEST(GuideRenderTest, AWrongGuideChangesNoMean)
     settings.seed = 1;
     settings.guide = std::make_shared<const Guide>(guideOf(records));
     expectSameMean("a wrong guide", renderScene(scene, settings), plain);
+}
+
+// It knows that two of three lamps, which are large and near, are never seen, and that light samples bring next to nothing.
+TEST(GuideRenderTest, AWrongSightChangesNoMean)
+{
+    SceneBuilder b;
+    const std::uint32_t wall = b.lambert(glm::vec3(0.5F));
+    b.cube(1.0F, wall, true);
+    for (const float z : {-0.8F, 0.0F, 0.7F}) {
+        b.quad({glm::vec3(-0.8F, 0.9F, z), {0.8F, 0.9F, z}, {0.8F, 0.9F, z + 0.15F}, {-0.8F, 0.9F, z + 0.15F}},
+               b.lambert(glm::vec3(0.0F), glm::vec3(5.0F + 4.0F * z)));
+    }
+    b.environment(glm::vec3(0.3F)).perspective({0.0F, 0.0F, 0.9F}, {0.0F, 0.1F, -1.0F}, 1.3F);
+    Random random(10);
+    std::vector<GuideRecord> records = recordsOfBall(100000, random);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const std::uint32_t lights = i % 4 == 3 ? kSightOfInfinite : i % 4;
+        records[i].direct = packDirect(0.1F, lights, lights == 1 || lights == kSightOfInfinite);
+    }
+    const Scene scene = b.scene();
+    RenderSettings settings = squareSettings(kSide, 4096);
+    const Film plain = renderScene(scene, settings);
+    settings.seed = 1;
+    settings.guide = std::make_shared<const Guide>(guideOf(records));
+    expectSameMean("a wrong sight", renderScene(scene, settings), plain);
 }
 
 // A wall and a floor; the guide knows the directions from the wall to a ball.

@@ -4,6 +4,7 @@
 #include "host/render/build_guide.hpp"
 #include "tests/support/random.hpp"
 
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -20,6 +21,12 @@ inline std::uint32_t encodeDirection(const glm::dvec3& w)
     return bits(p.x) | bits(p.y) << 16U;
 }
 
+// As access/guide_records.glsl.
+inline std::uint32_t packDirect(float luminance, std::uint32_t lights, bool arrived)
+{
+    return (std::bit_cast<std::uint32_t>(luminance) & ~(kSampledLights | kSampleBlocked)) | lights | (arrived ? 0U : kSampleBlocked);
+}
+
 // Points within a cube of 2 m, to which light comes from a ball of 10 cm beside it and, a tenth of it, from everywhere.
 inline std::vector<GuideRecord> recordsOfBall(std::size_t count, Random& random)
 {
@@ -28,7 +35,7 @@ inline std::vector<GuideRecord> recordsOfBall(std::size_t count, Random& random)
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 p = 2.0 * glm::dvec3(random.uniform(), random.uniform(), random.uniform()) - 1.0;
         const glm::dvec3 w = i % 10 == 0 ? random.direction() : glm::normalize(ball + 0.1 * random.direction() - p);
-        records.push_back({vec3(p), 1.0F, encodeDirection(w), encodeDirection(random.direction()), 1.0F, 0.0F});
+        records.push_back({vec3(p), 1.0F, encodeDirection(w), encodeDirection(random.direction()), 1.0F, 0});
     }
     return records;
 }

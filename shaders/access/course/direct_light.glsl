@@ -20,6 +20,8 @@ float misWeightOfHit(PathState state, float lightPdf)
     return weight;
 }
 
+uint fetchSight(vec3 p, vec3 receiverNormal) { return 0u; }
+
 float misWeightOfSample(float lightPdf, float bsdfPdf)
 {
     float weight = kDirect == kDirectMis && lightPdf > 0.0 ? powerHeuristic(lightPdf, bsdfPdf) : 1.0;
@@ -30,7 +32,7 @@ float misWeightOfSample(float lightPdf, float bsdfPdf)
 bool sampleLightOfRound(SampleId id, SurfaceInteraction si, Bsdf bsdf, vec3 wo, PathState state, out ShadowRay ray)
 {
     LightContext context = makeLightContext(si, bsdf);
-    LightChoice choice = LightChoice(lightRound.light, 1.0);
+    LightChoice choice = LightChoice(lightRound.light, 1.0, 0u);
     if (kDirect == kDirectMis) {
         choice = chooseLight(id, context, state.bounce);
     } else {
