@@ -6,6 +6,7 @@ set(onlyInCi
     # Long pictures in which two estimators, or an estimator and an answer on paper, agree. By default: the kernels' tests of each lobe,
     # light and density, one or two cases of each kind, and the golden pictures of four scenes.
     Scenes/CausticsTest.*
+    GuidedErrorEstimateTest.*
     CausticsOfLightsTest.*
     CausticsFilmTest.AdaptiveRendersHaveTheSameLight
     CausticsFilmTest.CountsTheSamplesThatEachPixelHas

@@ -19,7 +19,6 @@ struct GuideNode {
 };
 GLIM_CONST uint kGuideNoSplit = 3u;      // as axis: all points go to the first child
 GLIM_CONST uint kGuideBlockTexels = 8u;  // two for each quarter
-GLIM_CONST uint kMostGuideBlocks = 1u << 22u;
 
 // What is known of the light that arrives at some points. Two texels.
 struct GuideCell {

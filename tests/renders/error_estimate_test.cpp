@@ -1,7 +1,9 @@
 // H30: the variance that a picture reports is that of pictures with other seeds, and the interval of its error holds the error.
 #include "host/measure/error_estimate.hpp"
+#include "host/flatten/flatten_scene.hpp"
 #include "host/measure/compare_images.hpp"
 #include "host/measure/error_bound.hpp"
+#include "host/render/learn_guide.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
 #include "shaders/shared/limits.h"
@@ -11,6 +13,7 @@
 #include "tests/support/render_scene.hpp"
 #include "tests/support/single_samples.hpp"
 #include "tests/support/statistics.hpp"
+#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -131,7 +134,7 @@ Spread computeSpread(const std::vector<Film>& films)
     const std::vector<glm::dvec3> mean = meanPicture(films);
     Spread spread;
     for (const Film& film : films) {
-        spread.errors.push_back(squaredErrors(film, mean, kSeeds));
+        spread.errors.push_back(squaredErrors(film, mean, static_cast<double>(films.size())));
         spread.estimates.push_back(*estimateError(film));
     }
     return spread;
@@ -155,20 +158,31 @@ double minCovered(double count) { return 0.95 * count - 5.0 * std::sqrt(0.95 * 0
 
 bool holds(const Interval& interval, double error) { return error >= interval.low && error <= interval.high; }
 
+// Of films that do not say that few pixels make up their error, and those of them whose interval holds it.
+struct Told {
+    double films = 0.0, covered = 0.0;
+};
+
+Told expectVariance(const Spread& spread)
+{
+    Told told;
+    for (std::size_t i = 0; i < spread.errors.size(); ++i) {
+        const ErrorEstimate& estimate = spread.estimates[i];
+        told.films += estimate.isOfFew() ? 0.0 : 1.0;
+        told.covered += !estimate.isOfFew() && holds(estimate.mse, spread.errors[i].mse) ? 1.0 : 0.0;
+    }
+    expectSampleMean("variance over reported variance", spread.ratios(&SquaredErrors::mse), 1.0, 200);
+    std::printf("  the interval holds the error of %.0f of %.0f renders (%.0f more say that few pixels make it up)\n", told.covered,
+                told.films, static_cast<double>(spread.errors.size()) - told.films);
+    return told;
+}
+
 TEST_P(ErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
 {
     const Spread spread = computeSpread(renderSeeds(GetParam().value.scene(), settings, kSeeds));
-    double told = 0.0, covered = 0.0;
-    for (std::size_t i = 0; i < kSeeds; ++i) {
-        const ErrorEstimate& estimate = spread.estimates[i];
-        told += estimate.isOfFew() ? 0.0 : 1.0;
-        covered += !estimate.isOfFew() && holds(estimate.mse, spread.errors[i].mse) ? 1.0 : 0.0;
-    }
-    expectSampleMean("variance over reported variance", spread.ratios(&SquaredErrors::mse), 1.0, 200);
-    std::printf("  the interval holds the error of %.0f of %.0f renders (%.0f more say that few pixels make it up)\n", covered, told,
-                kSeeds - told);
-    EXPECT_GE(told, kSeeds / 2) << "or there is little to test";
-    EXPECT_GE(covered, minCovered(told));
+    const Told told = expectVariance(spread);
+    EXPECT_GE(told.films, kSeeds / 2) << "or there is little to test";
+    EXPECT_GE(told.covered, minCovered(told.films));
     if (settings.sampler == Sampler::Sobol && !settings.caustics) {
         compareWithSamples(spread);
     }
@@ -234,6 +248,24 @@ TEST(ErrorEstimateBlocksTest, H30BlocksOfThreeSizes)
                   "variance x " + figure(mean) + " +- " + figure(error) + " of what is reported");
     EXPECT_GE(mean + z * error, 1.0 / 1.247);
     EXPECT_LE(mean - z * error, 1.0);
+}
+
+// 60 films of each scene by one guide.
+TEST(GuidedErrorEstimateTest, H30IsTheSpreadOfOtherSeeds)
+{
+    Told all;
+    for (const char* name : {"door_ajar", "mirror_room", "shaded_lamp", "cornell", "closed_room", "showcase"}) {
+        std::printf("%s\n", name);
+        const Scene scene = loadGltf(std::string(GLIM_SOURCE_DIR "/scenes/") + name + ".gltf");
+        RenderSettings settings = squareSettings(2 * kSide, 2 * kSamples);
+        settings.caustics = false;
+        settings.guide = learnGuide(testDevice(), flattened(scene), flattenCamera(scene.cameras.front(), 1.0F), settings).guide;
+        const Told told = expectVariance(computeSpread(renderSeeds(scene, settings, 60)));
+        all.films += told.films;
+        all.covered += told.covered;
+    }
+    EXPECT_GE(all.films, 100.0) << "or there is little to test";
+    EXPECT_GE(all.covered, minCovered(all.films));
 }
 
 INSTANTIATE_TEST_SUITE_P(Samplers, ErrorEstimateTest,
