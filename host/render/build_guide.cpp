@@ -16,6 +16,7 @@
 #include <limits>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 namespace glim {
 namespace {
@@ -165,17 +166,23 @@ public:
           total_(total)
     {}
 
-    // Sets node `index`, whose items have their places in its square. `light`: what they bring, smoothed. `area`: of its square.
-    void build(std::uint32_t index, const std::vector<Item>& items, double light, double area, std::uint32_t level)
+    struct Square {
+        std::vector<Item> items;         // with their places in it
+        double light = 0.0, area = 0.0;  // that they bring, smoothed; of all directions' square
+        bool divides = false;
+    };
+
+    // Sets node `index`.
+    void build(std::uint32_t index, const Square& square, std::uint32_t level)
     {
         GuideQuad quad{};
         std::vector<std::pair<std::uint32_t, Square>> divided;
-        const std::array<Square, 4> quadrants = divide({items, light, area, true}, 0, quad);
+        const std::array<Square, 4> quadrants = divide(square, 0, quad);
         for (std::uint32_t q = 0; q < 4; ++q) {
-            const std::array<Square, 4> inner = divide(quadrants[q], 1 + q, quad);
+            std::array<Square, 4> inner = divide(quadrants[q], 1 + q, quad);
             for (std::uint32_t r = 0; r < 4; ++r) {
                 if (inner[r].divides && level + 2 < kQuadLevels) {
-                    divided.emplace_back(4 * q + r, inner[r]);
+                    divided.emplace_back(4 * q + r, std::move(inner[r]));
                     quad.children |= 1U << (4 * q + r);
                 }
             }
@@ -184,18 +191,12 @@ public:
         quad.children |= child << 16U;
         quads_[index] = quad;
         quads_.resize(quads_.size() + divided.size());
-        for (const auto& [number, square] : divided) {
-            build(child++, square.items, square.light, square.area, level + 2);
+        for (const auto& [number, part] : divided) {
+            build(child++, part, level + 2);
         }
     }
 
 private:
-    struct Square {
-        std::vector<Item> items;
-        double light = 0.0, area = 0.0;
-        bool divides = false;
-    };
-
     // The quadrants of `square`, whose probabilities are the words `number`.
     std::array<Square, 4> divide(const Square& square, std::uint32_t number, GuideQuad& quad) const
     {
@@ -298,7 +299,7 @@ void describeLight(Cell& cell)
         }
     }
     cell.quads.resize(1);
-    QuadBuilder(cell.quads, kept).build(0, items, kept, 1.0, 0);
+    QuadBuilder(cell.quads, kept).build(0, {std::move(items), kept, 1.0, true}, 0);
 }
 
 template <class T>
@@ -393,11 +394,12 @@ private:
         if (static_cast<std::size_t>(end - begin) < places.size() / kWallShare) {
             return median;
         }
-        if (before == 0 && after == 0) {
-            return low + 0.5F * (high - low);
+        float split = low + 0.5F * (high - low);
+        if (before + after > 0) {
+            const float beside = before > after ? *(begin - 1) : *end;
+            split = std::max(median, beside) - 0.5F * std::abs(median - beside);
         }
-        const float beside = before > after ? *(begin - 1) : *end;
-        return std::max(median, beside) - 0.5F * std::abs(median - beside);
+        return split > low ? split : high;  // of neighbouring numbers the mean may be the lower one
     }
 
     std::size_t cellRecords_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace glim::build_guide_test {
@@ -76,6 +77,22 @@ TEST(BuildGuideTest, DividesPointsOfParallelWalls)
     const GuideNode root = nodeAt(guide, 0);
     EXPECT_EQ(root.children & 3U, 0U);
     EXPECT_NEAR(root.split, 0.0F, 3.9F) << "between the walls";
+}
+
+// Of two neighbouring numbers the mean is one of them.
+TEST(BuildGuideTest, DividesPointsThatAreAnUlpApart)
+{
+    for (const float low : {1.0F, std::nextafter(1.0F, 2.0F)}) {
+        for (const int part : {2, 50}) {
+            Random random(2);
+            std::vector<GuideRecord> records = recordsOfBall(20000, random);
+            for (std::size_t i = 0; i < records.size(); ++i) {
+                records[i].point = vec3(i % part == 0 ? low : std::nextafter(low, 2.0F), 2.0F, 3.0F);
+                records[i].normal = encodeDirection({0, 0, -1});
+            }
+            EXPECT_EQ(guideOf(records).cells, 2U);
+        }
+    }
 }
 
 TEST(BuildGuideTest, PointsAtOnePlaceAreOneCell)
