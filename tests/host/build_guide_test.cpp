@@ -79,6 +79,21 @@ TEST(BuildGuideTest, DividesPointsOfParallelWalls)
     EXPECT_NEAR(root.split, 0.0F, 3.9F) << "between the walls";
 }
 
+// Half of the points are on a wall between two others.
+TEST(BuildGuideTest, DividesPointsBesideAWallInTheMiddle)
+{
+    Random random(2);
+    std::vector<GuideRecord> records = recordsOfBall(60000, random);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const float wall = i % 4 == 0 ? -4.0F : i % 4 == 1 ? 4.0F : 0.0F;
+        records[i].point.x = wall + static_cast<float>(3e-6 * random.uniform());
+        records[i].normal = encodeDirection({1, 0, 0});
+    }
+    const GuideNode root = nodeAt(guideOf(records), 0);
+    EXPECT_EQ(root.children & 3U, 0U);
+    EXPECT_NEAR(std::abs(root.split), 2.0F, 1e-3F) << "in the middle of a gap";
+}
+
 // Of two neighbouring numbers the mean is one of them.
 TEST(BuildGuideTest, DividesPointsThatAreAnUlpApart)
 {

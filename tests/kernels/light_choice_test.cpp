@@ -172,8 +172,13 @@ TEST(LightChoiceTest, AGuidesSightChangesProbabilities)
     const auto oddsOfInfinite = [](const std::vector<double>& p) { return (p[2] - 0.1) / (p[0] + p[1] - 0.1); };
     EXPECT_NEAR(oddsOfInfinite(finite) / oddsOfInfinite(plain), 2.0, 1e-5);
     EXPECT_NEAR(oddsOfInfinite(infinite) / oddsOfInfinite(plain), 0.5, 1e-5);
+    KernelTest learning = two.test(test_kernels::light_probability_test);
+    learning.specialize(kSpecGuided, 1).specialize(kSpecLearns, 1);
+    learning.cases(std::vector<Receiver>{{kReceivers[0].p, kReceivers[0].receiverNormal, 2U << 30U}}).resultsOf<float>(3).threads(3).run();
+    const std::vector<float> always = learning.results<float>();
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_NEAR(rarer[i], 0.25 * plain[i], 1e-7);
+        EXPECT_NEAR(static_cast<double>(always[i]), plain[i], 1e-7) << "paths that learn";
     }
 }
 
