@@ -20,6 +20,8 @@ set(onlyInCi
     GuideRenderTest.HasTheSameMeanAndLessNoiseBehindADoor
     GuideRenderTest.HasTheSameMeanWithEveryLobe
     GuideRenderTest.AWrongGuideChangesNoMean
+    GuideRenderTest.HasTheSameMeanInFogBehindADoor
+    GuideRenderTest.AWrongGuideOfScatteringsChangesNoMean
     GuideAdversaryTest.LightByWayOfAMirrorAlone
     GuideAdversaryTest.ManyEmittersBehindADoor
     Lamps/HiddenLampTest.*

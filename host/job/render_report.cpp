@@ -156,11 +156,8 @@ Json suspectsOf(const RenderReport& report)
 Json guideOf(const RenderReport& report)
 {
     const auto& guide = report.guide;
-    return guide ? Json{{"gain", report.guideGain},
-                        {"digest", guide->digest},
-                        {"cells", guide->cells},
-                        {"paths", guide->paths},
-                        {"seconds", guide->seconds}}
+    return guide ? Json{{"gain", report.guideGain},          {"digest", guide->digest}, {"cells", guide->cells},
+                        {"scatterings", guide->scatterings}, {"paths", guide->paths},   {"seconds", guide->seconds}}
                  : Json(nullptr);
 }
 

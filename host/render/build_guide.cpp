@@ -8,6 +8,7 @@
 
 #include "host/bvh/parallel_for.hpp"
 #include "host/digest.hpp"
+#include "shaders/shared/path_types.h"
 
 #include <algorithm>
 #include <array>
@@ -429,17 +430,20 @@ Guide pack(std::vector<uvec4> texels, const std::vector<Cell>& cells, double mea
     return guide;
 }
 
-Guide buildGuide(std::span<std::vector<GuidePoint>, kGuideRoots> points)
+// A tree's root, and its points.
+using Root = std::pair<std::uint32_t, Points>;
+
+Guide buildGuide(std::span<const Root> roots)
 {
-    const std::size_t count =
-        std::accumulate(points.begin(), points.end(), std::size_t{0}, [](std::size_t sum, const auto& part) { return sum + part.size(); });
+    const std::size_t count = std::accumulate(roots.begin(), roots.end(), std::size_t{0},
+                                              [](std::size_t sum, const Root& root) { return sum + root.second.size(); });
     const auto cellRecords = static_cast<std::size_t>(std::max(kLeastCellRecords, kCellRecords * std::sqrt(static_cast<double>(count))));
     std::vector<uvec4> texels(kGuideBlockTexels);
     put(texels, kUniformQuadtree, GuideQuad{kGuideHalves, kGuideHalves, kGuideHalves, 0});
     std::vector<Cell> cells;
     TreeBuilder builder(cellRecords, texels, cells);
-    for (std::uint32_t root = 0; root < kGuideRoots; ++root) {
-        builder.build(root, points[root]);
+    for (const auto& [texel, points] : roots) {
+        builder.build(texel, points);
     }
     parallelFor(cells.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
         chooseFocus(cells[i]);
@@ -454,7 +458,7 @@ Guide buildGuide(std::span<std::vector<GuidePoint>, kGuideRoots> points)
 
 }  // namespace
 
-Guide emptyGuide() { return GuideBuilder().build(); }
+Guide emptyGuide(bool scatterings) { return GuideBuilder(scatterings).build(); }
 
 void GuideBuilder::add(std::span<const GuideRecord> records)
 {
@@ -462,14 +466,26 @@ void GuideBuilder::add(std::span<const GuideRecord> records)
         const float sampled = luminanceOf(record.direct);
         const float sum = record.value + sampled + record.point.x + record.point.y + record.point.z;
         if (record.throughput > 0.0F && std::isfinite(sum) && std::isfinite(record.throughput)) {
-            points_[rootOf(decodeDirection(record.normal))].push_back(
-                {record.point, record.direction, record.value / record.throughput,
-                 (std::bit_cast<std::uint32_t>(sampled / record.throughput) & ~kSampledLights) |
-                     (record.direct & (kSampledLights | kSampleBlocked))});
+            (record.normal == kNoReceiverNormal ? scattered_ : points_[rootOf(decodeDirection(record.normal))])
+                .push_back({record.point, record.direction, record.value / record.throughput,
+                            (std::bit_cast<std::uint32_t>(sampled / record.throughput) & ~kSampledLights) |
+                                (record.direct & (kSampledLights | kSampleBlocked))});
         }
     }
 }
 
-Guide GuideBuilder::build() { return buildGuide(points_); }
+Guide GuideBuilder::build()
+{
+    std::vector<Root> roots;
+    for (std::uint32_t root = 0; root < kGuideRoots; ++root) {
+        roots.emplace_back(root, points_[root]);
+    }
+    if (scatterings_) {
+        roots.emplace_back(kGuideOfScatterings, scattered_);
+    }
+    Guide guide = buildGuide(roots);
+    guide.scatterings = scatterings_;
+    return guide;
+}
 
 }  // namespace glim

@@ -9,8 +9,8 @@
 
 namespace glim {
 
-// One that knows nothing: it guides no path.
-Guide emptyGuide();
+// One that knows nothing: it guides no path. `scatterings`: as in Guide.
+Guide emptyGuide(bool scatterings = false);
 
 // What a record says of light. 24 bytes: there are millions.
 struct GuidePoint {
@@ -23,13 +23,19 @@ struct GuidePoint {
 // The order of the records is part of what a guide depends on.
 class GuideBuilder {
 public:
+    explicit GuideBuilder(bool scatterings = false)
+        : scatterings_(scatterings)
+    {}
+
     // Leaves out records without throughput, and those that are not finite.
     void add(std::span<const GuideRecord> records);
     // Of all records so far.
     Guide build();
 
 private:
+    bool scatterings_;
     std::array<std::vector<GuidePoint>, kGuideRoots> points_;
+    std::vector<GuidePoint> scattered_;
 };
 
 }  // namespace glim

@@ -13,8 +13,9 @@ struct Guide {
     std::vector<uvec4> texels;
     std::string digest;  // of the texels: films by different guides differ
     std::uint32_t cells = 0;
-    std::uint64_t paths = 0;  // that it was learned by
-    double seconds = 0.0;     // that this took
+    std::uint64_t paths = 0;   // that it was learned by
+    double seconds = 0.0;      // that this took
+    bool scatterings = false;  // it is for those in media too
 };
 
 }  // namespace glim

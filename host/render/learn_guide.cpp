@@ -23,22 +23,25 @@ constexpr std::uint32_t kPathsBetweenPauses = 8192;  // a twentieth of a second 
 constexpr std::uint32_t kFirstLearningSample = 0x80000000U;
 // A picture with less variance is done before learning pays.
 constexpr double kHard = 1.0;
-constexpr double kLookups = 1.55;  // time of a guided ray over that of another (tests/bench/guiding.md)
+constexpr double kLookups = 1.55;               // time of a guided ray over that of another (tests/bench/guiding.md)
+constexpr double kLookupsOfScatterings = 1.25;  // and over that, if scatterings are guided too
 
-RenderSettings learningSettings(const RenderSettings& settings)
+RenderSettings learningSettings(const RenderSettings& settings, bool scatterings)
 {
     RenderSettings learning = pilotSettings(settings, pilotSizeAtMost(settings, kLearningPixels));
     learning.schedule = Schedule::Persistent;
     learning.sampler = Sampler::Independent;
     learning.learns = true;
+    learning.guide = std::make_shared<const Guide>(emptyGuide(scatterings));
     return learning;
 }
 
 class Learner {
 public:
+    // `settings`: learningSettings().
     Learner(const Renderer& renderer, NoiseMeter& meter, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings,
             const LearningObserver& observer)
-        : resources_(renderer.resources(), scene, camera, learningSettings(settings)),
+        : resources_(renderer.resources(), scene, camera, settings),
           meter_(meter),
           observer_(observer),
           atOnce_(
@@ -46,10 +49,9 @@ public:
     {}
 
     // Null if the observer has ended it.
-    std::shared_ptr<const Guide> learn()
+    std::shared_ptr<Guide> learn()
     {
-        const auto start = Clock::now();
-        auto best = std::make_shared<Guide>(emptyGuide());
+        auto best = std::make_shared<Guide>(*resources_.settings.guide);
         for (std::uint32_t pass = 0; pass < kMostPasses; ++pass) {
             resources_.setGuide(*best);
             tile_ = resources_.makeTile(0, resources_.settings.pixelCount());
@@ -83,7 +85,6 @@ public:
                 best = std::move(guide);
             }
         }
-        best->seconds = secondsSince(start);
         return best;
     }
 
@@ -117,7 +118,7 @@ private:
     const LearningObserver& observer_;
     const std::uint32_t atOnce_;  // pixels
     std::unique_ptr<Tile> tile_;
-    GuideBuilder builder_;
+    GuideBuilder builder_{resources_.settings.guide->scatterings};
     std::uint32_t portions_ = 0;  // traced
     double work_ = std::numeric_limits<double>::infinity();
 };
@@ -150,13 +151,33 @@ LearnedGuide learnGuide(const Renderer& renderer, const FlatScene& scene, const 
             return {};
         }
     }
-    Learner learner(renderer, meter, scene, camera, settings, observer);
-    LearnedGuide learned{learner.learn(), std::nullopt};
-    if (plain && learned.guide) {
-        learned.gain = plain->work() / (kLookups * learner.work());
-        learned.guide = *learned.gain > 1.0 ? std::move(learned.guide) : nullptr;
+    // Where media scatter, one for surfaces alone and one for scatterings too.
+    const auto start = Clock::now();
+    const std::uint32_t kinds = (scene.features & kFeatureScattering) != 0 ? 2 : 1;
+    std::shared_ptr<Guide> best;
+    double leastWork = 0.0;
+    for (std::uint32_t kind = 0; kind < kinds; ++kind) {
+        const LearningObserver ofKind = [&](LearningPause pause) {
+            pause.done = (kind + pause.done) / kinds;
+            return observer(pause);
+        };
+        Learner learner(renderer, meter, scene, camera, learningSettings(settings, kind == 1), ofKind);
+        auto guide = learner.learn();
+        if (!guide) {
+            return {};
+        }
+        const double work = learner.work() * (guide->scatterings ? kLookupsOfScatterings : 1.0);
+        if (!best || work < leastWork) {
+            best = std::move(guide);
+            leastWork = work;
+        }
     }
-    return learned;
+    best->seconds = secondsSince(start);
+    if (plain) {
+        const double gain = plain->work() / (kLookups * leastWork);
+        return {gain > 1.0 ? std::move(best) : nullptr, gain};
+    }
+    return {std::move(best), std::nullopt};
 }
 
 LearnedGuide learnGuide(Device& device, const FlatScene& scene, const FlatCamera& camera, const RenderSettings& settings, GuideUse use)
@@ -164,9 +185,9 @@ LearnedGuide learnGuide(Device& device, const FlatScene& scene, const FlatCamera
     if (!canLearn(device.description(), use)) {
         return {};
     }
-    RenderSettings small = learningSettings(settings);
+    RenderSettings small = learningSettings(settings, false);
     small.learns = false;
-    small.guide = use == GuideUse::Always ? std::make_shared<const Guide>(emptyGuide()) : nullptr;  // so that one set of kernels is enough
+    small.guide = use == GuideUse::Always ? small.guide : nullptr;  // so that one set of kernels is enough
     return learnGuide(Renderer(device, scene, camera, small), scene, camera, settings, use, [](const LearningPause&) { return true; });
 }
 

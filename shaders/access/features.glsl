@@ -40,5 +40,6 @@ layout(constant_id = kSpecSuspects) const bool kSuspects = false;
 layout(constant_id = kSpecNotes) const bool kNotes = false;
 layout(constant_id = kSpecGuided) const bool kGuided = false;
 layout(constant_id = kSpecLearns) const bool kLearns = false;
+layout(constant_id = kSpecGuidedScatterings) const bool kGuidedScatterings = false;
 
 #endif

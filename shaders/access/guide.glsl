@@ -24,6 +24,20 @@ struct Guide {
 
 const Guide kNoGuide = Guide(vec3(0.0), 0.0, kUniformQuadtree, 0.0, 1.0, 0.0, 0u);
 
+// What learn_guide wants to know of a vertex.
+struct LearnedVertex {
+    vec3 point;
+    uint normal;      // as in GuideRecord
+    vec3 throughput;  // of what the vertex sends out; 0: the path has ended on arrival
+    vec3 known;       // light that the guide expects it to send out, besides that of light samples
+    vec3 sampled;     // light of its light sample, if nothing is in the way
+    uint lights;      // of which that is
+    bool isNarrow;    // what it sends out comes from one direction, as that of a mirror
+};
+
+// A lobe this narrow, per steradian, is for the guide what a mirror is: light that comes by it belongs to the vertex before.
+const float kNarrowPdf = 16.0;
+
 uint guideRootOf(vec3 n)
 {
     vec3 a = abs(n);
@@ -37,9 +51,10 @@ bool isAbove(vec3 p, uint axis, float split)
     return axis != kGuideNoSplit && (axis == 0u ? p.x : axis == 1u ? p.y : p.z) >= split;
 }
 
-Guide fetchGuide(vec3 p, vec3 n)
+// `root`: of the tree.
+Guide fetchGuide(vec3 p, uint root)
 {
-    uint at = guideRootOf(n);
+    uint at = root;
     bool isCell = false;
     while (!isCell) {
         uvec4 node = texelFetch(guideTexels, int(at));
@@ -55,6 +70,11 @@ Guide fetchGuide(vec3 p, vec3 n)
     // A point outside of its cell may be beyond the sphere.
     guide.focus = dot(guide.offset, guide.offset) < 0.8 * guide.focus * guide.focus ? guide.focus : 0.0;
     return guide;
+}
+
+Guide fetchGuide(vec3 p, vec3 n)
+{
+    return fetchGuide(p, guideRootOf(n));
 }
 
 // Where a descent has come to in the square of directions.
@@ -124,6 +144,12 @@ GuideSample sampleGuideOr(Guide guide, bool samples, vec2 u, vec3 w)
         }
     }
     return GuideSample(w, density * pdfOfSquare(seen) * jacobian);
+}
+
+// Of directions that the guide samples in its share, and a BSDF or a phase function else. Per steradian.
+float mixPdfs(Guide guide, float guidePdf, float otherPdf)
+{
+    return guide.share * guidePdf + (1.0 - guide.share) * otherPdf;
 }
 
 // Per steradian.

@@ -6,11 +6,6 @@
 #include "guide.glsl"
 #include "notes.glsl"
 
-float mixPdfs(Guide guide, float guidePdf, float bsdfPdf)
-{
-    return guide.share * guidePdf + (1.0 - guide.share) * bsdfPdf;
-}
-
 // A sample whose direction the guide has chosen, still unweighted.
 BsdfSample makeGuidedSample(Bsdf bsdf, vec3 wi, out vec3 local)
 {

@@ -31,6 +31,7 @@ VisibleHit tracePathThroughAlpha(Path path, AlphaRay alphaRay, inout Steps steps
 // receiver: the pixel of a light path's light, the group of a camera path's.
 void addLight(inout Path path, uint receiver, vec3 contribution, uint pathLength);
 void visitMiss(inout Path path);
+bool visitScattering(inout Path path, float t);  // false if the path ends
 bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced);  // false if the path ends
 void endPath(Path path);
 
@@ -82,7 +83,7 @@ bool advance(inout Path path, inout Work work)
             if (met.hit.primitiveRef == kNoPrimitiveRef) {
                 visitMiss(path);
             } else if (kScatters && isScattered(met.hit)) {
-                alive = scatterPath(path.id, met.hit.t, path.ray, path.state);
+                alive = visitScattering(path, met.hit.t);
             } else {
                 alive = visitSurface(path, met.hit, work, steps, traced);
                 again = traced.alphaRay.isShadow;

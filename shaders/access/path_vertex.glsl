@@ -12,19 +12,6 @@
 #include "media.glsl"
 #include "next_ray.glsl"
 
-// A lobe this narrow, per steradian, is for the guide what a mirror is: light that comes by it belongs to the surface before.
-const float kNarrowPdf = 16.0;
-
-// What learn_guide wants to know of a vertex.
-struct LearnedVertex {
-    vec3 point, normal;
-    vec3 throughput;  // of what the vertex sends out; 0: the path has ended on arrival
-    vec3 known;       // light that the guide expects it to send out, besides that of light samples
-    vec3 sampled;     // light of its light sample, if nothing is in the way
-    uint lights;      // of which that is
-    bool isNarrow;    // what it sends out comes from one direction, as that of a mirror
-};
-
 struct VertexResult {
     vec3 emitted;         // emission that the ray itself has hit, times throughput and MIS weight
     uint emittedGroup;    // of lights
@@ -164,7 +151,7 @@ VertexResult shadeSurface(SampleId id, PathRay ray, PathHit hit, PathState state
         if (hasNonDelta(bsdf)) {
             guide = fetchGuide(bsdf, lightContext);
         }
-        result.learned = LearnedVertex(si.p, bsdf.frame.z, vec3(0.0), state.throughput * guide.reflected, vec3(0.0), 0u, false);
+        result.learned = LearnedVertex(si.p, encodeNormal(bsdf.frame.z), vec3(0.0), state.throughput * guide.reflected, vec3(0.0), 0u, false);
         survives = survivesArrival(guide, u.roulette, state);
         result.learned.throughput = survives ? state.throughput : vec3(0.0);
     }

@@ -3,6 +3,7 @@
 #ifndef GLIM_ACCESS_SCATTERING
 #define GLIM_ACCESS_SCATTERING
 
+#include "guide.glsl"
 #include "lib/media.glsl"
 #include "lib/roulette.glsl"
 #include "lib/scattering.glsl"
@@ -109,17 +110,50 @@ void endCutPath(PathState state)
     reportScatteringCap(uint(min(left, 1e4) * (1.0 / kCutUnit)));
 }
 
+// Since the last surface. A longer walk would multiply as many ratios of densities: in scenes/wax.gltf the guide of all scatterings had 3
+// times the error of this (tests/bench/guiding.md).
+const uint kMostGuidedScatterings = 4u;
+
+// A direction that phase function and guide have chosen, as evalAndSampleGuided() does.
+struct Deflection {
+    vec3 w;
+    float phasePdf;
+    float weight;  // of the throughput
+};
+
+Deflection sampleGuidedDeflection(Guide guide, vec3 direction, float g, vec2 u, float uChoice)
+{
+    bool byGuide = uChoice < guide.share;
+    GuideSample guided = sampleGuideOr(guide, byGuide, u, deflect(direction, g, u));
+    float phasePdf = pdfOfDeflection(g, dot(direction, guided.w));
+    return Deflection(guided.w, phasePdf, phasePdf / mixPdfs(guide, guided.pdf, phasePdf));
+}
+
 // Scatters the path after t metres. False if it ends: ray and state are then of no use. Roulette compares with the light that entered, so
 // that it ends no path early of which little is absorbed.
-bool scatterPath(SampleId id, float t, inout PathRay ray, inout PathState state)
+bool scatterPath(SampleId id, float t, inout PathRay ray, inout PathState state, out LearnedVertex learned)
 {
     float g = fetchScattering(render.firstScattering, innermost(ray.media)).anisotropy;
     uvec4 bits = scatteringBits(id, kDimensionDeflection, state);
     uint count = countScatterings(state) + 1u;
-    float continuation = continuationProbability(state.throughput, state.etaScale, kRouletteBounce);
+    vec3 p = ray.origin + ray.direction * t;
+    learned = LearnedVertex(p, kNoReceiverNormal, vec3(0.0), vec3(0.0), vec3(0.0), 0u, true);
+    float radiance = 1.0;
+    Deflection next = Deflection(deflect(ray.direction, g, unitFloat(bits.xy)), 1.0, 1.0);
+    if (kGuidedScatterings && count <= kMostGuidedScatterings) {
+        Guide guide = fetchGuide(p, kGuideOfScatterings);
+        guide.share *= 1.0 - abs(g);
+        next = sampleGuidedDeflection(guide, ray.direction, g, unitFloat(bits.xy), unitFloat(bits.w));
+        radiance = state.bounce > 0u ? guide.radiance : 1.0;
+        learned.known = state.throughput * guide.reflected;
+        learned.isNarrow = next.phasePdf > kNarrowPdf;
+    }
+    float continuation = continuationProbability(state.throughput * radiance, state.etaScale, kRouletteBounce);
+    continuation = kGuidedScatterings ? max(kLeastGuidedContinuation, continuation) : continuation;
     bool goesOn = unitFloat(bits.z) < continuation;
-    ray = PathRay(ray.origin + ray.direction * t, kNoPrimitive, deflect(ray.direction, g, unitFloat(bits.xy)), ray.media | kHasScattered);
-    state = PathState(state.throughput / continuation, 0.0, -float(count), state.etaScale, state.bounce, kNoReceiverNormal);
+    learned.throughput = goesOn ? state.throughput / continuation : vec3(0.0);
+    ray = PathRay(p, kNoPrimitive, next.w, ray.media | kHasScattered);
+    state = PathState(state.throughput * next.weight / continuation, 0.0, -float(count), state.etaScale, state.bounce, kNoReceiverNormal);
     if (goesOn && count == kMaxScatterings) {
         endCutPath(state);
     }

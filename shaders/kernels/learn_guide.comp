@@ -42,7 +42,7 @@ bool takePath(uint slot, out Path path, inout Work work)
 {
     path = Path(slot, makeSampleId(slot), fetchRay(slot), fetchState(slot), fetchRadiance(slot), 0.0);
     beginPath(path.id);
-    if (path.state.bounce == 0u) {
+    if (path.light.radiance.b == 0.0) {
         clearRecords(slot);
     }
     return true;
@@ -76,9 +76,30 @@ float openRecord(inout Path path, LearnedVertex vertex, vec3 wi)
     }
     float number = path.light.radiance.b += 1.0;
     guideRecords[recordAt(path.slot, number)] =
-        GuideRecord(vertex.point, 0.0, encodeNormal(wi), encodeNormal(vertex.normal), computeLuminance(vertex.throughput),
+        GuideRecord(vertex.point, 0.0, encodeNormal(wi), vertex.normal, computeLuminance(vertex.throughput),
                     packDirect(computeLuminance(vertex.sampled), vertex.lights, false));
     return number;
+}
+
+// `wi`: the next direction.
+void learnVertex(inout Path path, LearnedVertex vertex, vec3 wi)
+{
+    path.light.radiance.g = path.opened = 0.0;
+    if (!vertex.isNarrow) {
+        addToRecord(path.slot, path.light.radiance.r, vertex.known);
+        path.light.radiance.g = path.light.radiance.r;
+        path.light.radiance.r = path.opened = openRecord(path, vertex, wi);
+    }
+}
+
+bool visitScattering(inout Path path, float t)
+{
+    LearnedVertex vertex;
+    bool goesOn = scatterPath(path.id, t, path.ray, path.state, vertex);
+    if (kGuidedScatterings) {
+        learnVertex(path, vertex, path.ray.direction);
+    }
+    return goesOn;
 }
 
 bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced)
@@ -87,12 +108,7 @@ bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps ste
     if (hasEmissiveSurfaces()) {
         addToRecord(path.slot, path.light.radiance.r, vertex.emitted);
     }
-    path.light.radiance.g = path.opened = 0.0;
-    if (!vertex.learned.isNarrow) {
-        addToRecord(path.slot, path.light.radiance.r, vertex.learned.known);
-        path.light.radiance.g = path.light.radiance.r;
-        path.light.radiance.r = path.opened = openRecord(path, vertex.learned, vertex.ray.direction);
-    }
+    learnVertex(path, vertex.learned, vertex.ray.direction);
     if (vertex.hasShadowRay) {
         traceConnection(path, vertex.shadowRay, vertex.shadowRay.contribution, 0u, work, steps, traced);
     }

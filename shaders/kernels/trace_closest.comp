@@ -35,7 +35,8 @@ void walk(uint slot, SampleId id)
         state.throughput = throughputAt(ray, met, state.throughput) * visible.weight;
         goesOn = false;
         if (isScattered(met)) {
-            goesOn = scatterPath(id, met.t, ray, state);
+            LearnedVertex learned;
+            goesOn = scatterPath(id, met.t, ray, state, learned);
             state.throughput = goesOn ? state.throughput : vec3(0.0);
         } else {
             hit = met;

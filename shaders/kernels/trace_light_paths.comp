@@ -84,6 +84,8 @@ void addLight(inout Path path, uint pixel, vec3 contribution, uint pathLength)
 
 void visitMiss(inout Path path) {}
 
+bool visitScattering(inout Path path, float t) { return false; }
+
 bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced)
 {
     if (path.state.bounce == 0u) {

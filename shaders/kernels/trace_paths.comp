@@ -71,6 +71,12 @@ void visitMiss(inout Path path)
     }
 }
 
+bool visitScattering(inout Path path, float t)
+{
+    LearnedVertex learned;
+    return scatterPath(path.id, t, path.ray, path.state, learned);
+}
+
 // Adds light in the order in which the wavefront does.
 bool visitSurface(inout Path path, PathHit hit, inout Work work, inout Steps steps, inout TracedRay traced)
 {

@@ -52,6 +52,13 @@ float sampleDeflection(float g, float u)
     return 0.5 * (g + (x + g) * (1.0 + s) / (1.0 + g * x));
 }
 
+// Their density per steradian, by the cosine.
+float pdfOfDeflection(float g, float cosine)
+{
+    float square = max(1.0 + g * g - 2.0 * g * cosine, 1e-8);
+    return 0.0795774715 * (1.0 - g * g) / (square * sqrt(square));
+}
+
 vec3 deflect(vec3 direction, float g, vec2 u)
 {
     float z = clamp(sampleDeflection(g, u.x), -1.0, 1.0);

@@ -6,9 +6,11 @@
 GLIM_SHARED_BEGIN
 
 // The guide's texels begin with the roots of k-d trees over points, one for each main direction of the shading normal: +x, -x, +y, -y, +z,
-// -z. Then there is a quadtree of one node, whose directions are uniform over the square: of points that no cell knows of.
+// -z. Then there is a quadtree of one node, whose directions are uniform over the square: of points that no cell knows of. Then, if the
+// guide is for scatterings in media too, the root of a tree over these.
 GLIM_CONST uint kGuideRoots = 6u;
 GLIM_CONST uint kUniformQuadtree = kGuideRoots;
+GLIM_CONST uint kGuideOfScatterings = 7u;
 
 // A node of these trees: two levels of splits. One texel.
 struct GuideNode {
@@ -69,7 +71,7 @@ struct GuideRecord {
     vec3 point;
     float value;       // light that the next ray brought, times what the vertex makes of it and `throughput`; luminance
     uint direction;    // of that ray, and
-    uint normal;       // the shading normal, both as lib/octahedral.glsl has them
+    uint normal;       // the shading normal, both as lib/octahedral.glsl has them; of a scattering kNoReceiverNormal
     float throughput;  // luminance, on arrival; 0: no record
     uint direct;       // the light sample: lights, and its light times `throughput`; see packDirect() in access/guide_records.glsl
 };

@@ -1,5 +1,6 @@
 // Guides from records: what they know of, what they leave out.
 #include "host/render/build_guide.hpp"
+#include "shaders/shared/path_types.h"
 #include "tests/support/guide_records.hpp"
 
 #include <gtest/gtest.h>
@@ -40,6 +41,24 @@ TEST(BuildGuideTest, WithoutRecordsItGuidesNobody)
         }
     }
     EXPECT_EQ(emptyGuide().digest, guideOf({}).digest);
+}
+
+// They have a tree of their own, after which the others are as before.
+TEST(BuildGuideTest, KnowsOfScatteringsIfItIsAskedTo)
+{
+    Random random(3);
+    const std::vector<GuideRecord> records = recordsOfBall(60000, random);
+    std::vector<GuideRecord> scattered = records;
+    for (GuideRecord& record : scattered) {
+        record.normal = kNoReceiverNormal;
+    }
+    EXPECT_EQ(guideOf(scattered).digest, emptyGuide().digest);
+    const Guide surfaces = guideOf(records, true), both = guideOf(scattered, true);
+    EXPECT_EQ(onlyCell(surfaces, kGuideOfScatterings).quadtree, kUniformQuadtree);
+    EXPECT_EQ(onlyCell(both, 0).quadtree, kUniformQuadtree);
+    EXPECT_GE(both.cells, 60000U / 2048U);
+    EXPECT_TRUE(both.scatterings);
+    EXPECT_FALSE(guideOf(records).scatterings);
 }
 
 TEST(BuildGuideTest, LeavesOutWhatIsNoRecord)

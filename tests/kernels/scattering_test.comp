@@ -1,5 +1,5 @@
 // One thread is one throughput in one medium, and numbers that choose distance and direction. Result: the cosine of the deflection, the
-// free path at an extinction of 2, and the channel that was chosen.
+// free path at an extinction of 2, the channel that was chosen, and how dense deflections are there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "expect.glsl"
@@ -31,7 +31,7 @@ void main()
         EXPECT_CLOSE(dot(w, w), 1.0, 4e-7);
         EXPECT_NEAR(dot(w, c.direction), sampleDeflection(c.anisotropy, c.u.x), 2e-6);
         EXPECT_TRUE(isinf(sampleFreePath(0.0, c.u.x)));
-        results[TEST_THREAD] = vec4(dot(w, c.direction), sampleFreePath(2.0, c.u.x), float(channel), 0.0);
+        results[TEST_THREAD] = vec4(dot(w, c.direction), sampleFreePath(2.0, c.u.x), float(channel), pdfOfDeflection(c.anisotropy, dot(w, c.direction)));
     }
     endTest();
 }

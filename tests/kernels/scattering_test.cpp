@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace glim::scattering_test {
 
@@ -68,11 +69,15 @@ TEST_P(ScatteringTest, DistancesAndDirectionsHaveTheirDensities)
     test.cases(cases).resultsOf<vec4>(cases.size()).run();
     std::vector<double> cosines(kCells), lengths(kCells), expectedCosines, expectedLengths(kCells, static_cast<double>(kCount) / kCells);
     std::vector<double> deflections;
+    double mostOff = 0.0;  // densities, relative to the integral's slope
     const auto cell = [](double share) { return static_cast<std::size_t>(std::clamp(share, 0.0, 0.999999) * kCells); };
     for (const vec4& result : test.results<vec4>()) {
         ++cosines[cell(0.5 * (1.0 + static_cast<double>(result.x)))];
         ++lengths[cell(-std::expm1(-2.0 * static_cast<double>(result.y)))];
         deflections.push_back(static_cast<double>(result.x));
+        const double x = deflections.back(), step = 1e-5;
+        const double slope = (shareBelow(x + step, g) - shareBelow(x - step, g)) / (2.0 * step);
+        mostOff = std::max(mostOff, std::abs(2.0 * std::numbers::pi * static_cast<double>(result.w) / slope - 1.0));
     }
     for (int i = 0; i < kCells; ++i) {
         const double low = 2.0 * i / kCells - 1.0, high = 2.0 * (i + 1) / kCells - 1.0;
@@ -81,6 +86,7 @@ TEST_P(ScatteringTest, DistancesAndDirectionsHaveTheirDensities)
     expectCounts("cosines of deflections", cosines, expectedCosines, 8);
     expectCounts("free paths, by the share that is shorter", lengths, expectedLengths, 8);
     expectSampleMean("mean cosine", deflections, g, 8);
+    EXPECT_LT(mostOff, 1e-4) << "of the densities of deflections";
 }
 
 INSTANTIATE_TEST_SUITE_P(Anisotropies, ScatteringTest, testing::Values(0.0F, -0.5F, 1e-4F, 0.8F));

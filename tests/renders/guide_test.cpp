@@ -2,6 +2,7 @@
 // through a gap.
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "host/flatten/start_media.hpp"
 #include "host/render/aov.hpp"
 #include "host/render/build_guide.hpp"
 #include "host/render/learn_guide.hpp"
@@ -55,6 +56,7 @@ std::shared_ptr<const Guide> learnFor(const Scene& scene, const RenderSettings& 
 
 struct Films {
     Film plain, guided;
+    std::shared_ptr<const Guide> guide;
 };
 
 // By both schedules, without a guide and with one.
@@ -64,6 +66,7 @@ Films expectTheSameMean(const std::string& name, const FlatScene& flat, const Ca
     films.plain = renderFlat(flat, camera, settings);
     settings.seed = 1;
     settings.guide = learnGuide(testDevice(), flat, flattenCamera(camera, 1.0F), settings).guide;
+    films.guide = settings.guide;
     EXPECT_GT(settings.guide->cells, 20U);
     films.guided = renderFlat(flat, camera, settings);
     expectSameMean(name, films.guided, films.plain);
@@ -137,6 +140,39 @@ TEST(GuideRenderTest, HasTheSameMeanOfGlossBehindADoor)
     expectTheSameMean("gloss behind a door", flattened(scene), scene.cameras.front(), settings);
 }
 
+// A ball of a medium without a boundary.
+void addFog(Scene& scene, const glm::vec3& center, float radius, float extinction, float anisotropy)
+{
+    Material fog;
+    fog.metallic = fog.roughness = 0.0F;
+    fog.transmission = fog.ior = 1.0F;
+    fog.solid = true;
+    fog.scattering = glm::vec3(0.95F * extinction);
+    fog.absorption = glm::vec3(0.05F * extinction);
+    fog.scatterAnisotropy = anisotropy;
+    scene.materials.push_back(fog);
+    scene.spheres.push_back({"", center, radius, static_cast<std::uint32_t>(scene.materials.size() - 1)});
+}
+
+// For as much noise, paths by a guide of scatterings have fewer rays.
+TEST(GuideRenderTest, HasTheSameMeanInFogBehindADoor)
+{
+    Scene scene = doorAjar();
+    addFog(scene, {2.2F, 1.5F, 2.0F}, 1.45F, 0.5F, 0.0F);
+    EXPECT_TRUE(
+        expectTheSameMean("fog behind a door", flattened(scene), scene.cameras.front(), squareSettings(kSide, 1024)).guide->scatterings);
+}
+
+// Light comes from everywhere, and a guide would add its noise to the phase function, which has none.
+TEST(GuideRenderTest, LeavesScatteringsOfADenseBallAlone)
+{
+    SceneBuilder b;
+    b.environment(glm::vec3(1.0F)).perspective({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F}, 0.6F);
+    Scene scene = b.scene();
+    addFog(scene, glm::vec3(0.0F), 1.0F, 30.0F, 0.3F);
+    EXPECT_FALSE(learnFor(scene, squareSettings(kSide, 64))->scatterings);
+}
+
 // Mirror, glass, a punctual light and an environment, so that every path through the kernels runs.
 TEST(GuideRenderTest, HasTheSameMeanInAMixedScene)
 {
@@ -193,6 +229,22 @@ TEST(GuideRenderTest, DependsOnSceneCameraAndSizeAlone)
     EXPECT_NE(learnFor(scene, other)->digest, digest);
 }
 
+// The camera is in fog, where paths are put aside before they meet a surface.
+TEST(GuideRenderTest, DependsOnNoQueueInFog)
+{
+    Scene scene = doorAjar();
+    addFog(scene, {1.7F, 1.5F, 1.7F}, 1.9F, 0.4F, 0.0F);
+    const FlatScene flat = flattened(scene);
+    const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {}), flat);
+    RenderSettings settings = squareSettings(kSide, 64);
+    const std::shared_ptr<const Guide> guide = learnGuide(testDevice(), flat, camera, settings).guide;
+    EXPECT_TRUE(guide->scatterings);
+    for (const std::uint32_t capacity : {1024U, 5000U}) {
+        settings.pathCapacity = capacity;
+        EXPECT_EQ(learnGuide(testDevice(), flat, camera, settings).guide->digest, guide->digest);
+    }
+}
+
 TEST(GuideRenderTest, FilmsByOtherGuidesAreOthers)
 {
     const Scene scene = doorAjar();
@@ -218,6 +270,28 @@ TEST(GuideRenderTest, AWrongGuideChangesNoMean)
     settings.seed = 1;
     settings.guide = std::make_shared<const Guide>(guideOf(records));
     expectSameMean("a wrong guide", renderScene(scene, settings), plain);
+}
+
+// It knows a ball beside the fog that is not there.
+TEST(GuideRenderTest, AWrongGuideOfScatteringsChangesNoMean)
+{
+    Random random(12);
+    std::vector<GuideRecord> records = recordsOfBall(200000, random);
+    for (std::size_t i = 0; i < records.size(); i += 2) {
+        records[i].normal = kNoReceiverNormal;
+    }
+    SceneBuilder b;
+    b.cube(1.2F, b.lambert(glm::vec3(0.5F)), true)
+        .quad({glm::vec3(-0.3F, 1.15F, -0.3F), {0.3F, 1.15F, -0.3F}, {0.3F, 1.15F, 0.3F}, {-0.3F, 1.15F, 0.3F}},
+              b.lambert(glm::vec3(0.0F), glm::vec3(8.0F)))
+        .perspective({0.0F, 0.0F, 1.15F}, {0.0F, 0.0F, -1.0F}, 1.2F);
+    Scene scene = b.scene();
+    addFog(scene, glm::vec3(0.0F), 0.9F, 2.0F, 0.4F);
+    RenderSettings settings = squareSettings(kSide, 2048);
+    const Film plain = renderScene(scene, settings);
+    settings.seed = 1;
+    settings.guide = std::make_shared<const Guide>(guideOf(records, true));
+    expectSameMean("a wrong guide of scatterings", renderScene(scene, settings), plain);
 }
 
 // It knows that two of three lamps, which are large and near, are never seen, and that light samples bring next to nothing.

@@ -40,9 +40,9 @@ inline std::vector<GuideRecord> recordsOfBall(std::size_t count, Random& random)
     return records;
 }
 
-inline Guide guideOf(std::span<const GuideRecord> records)
+inline Guide guideOf(std::span<const GuideRecord> records, bool scatterings = false)
 {
-    GuideBuilder builder;
+    GuideBuilder builder(scatterings);
     builder.add(records);
     return builder.build();
 }
