@@ -17,6 +17,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfOpaqueAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -33,6 +34,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -48,6 +50,8 @@ constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxInflation = 1400;
 
 constexpr std::size_t kDigits = 64;  // of a SHA-256
+
+constexpr const char* kOpaqueType = "glim";  // of OpaqueBytes
 
 std::size_t pixelCount(const Image& image) { return std::size_t{image.width} * image.height; }
 
@@ -114,6 +118,10 @@ void readAttributes(const Imf::Header& header, Image& image)
             keep(static_cast<double>(real->value()));
         } else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
             keep(static_cast<double>(whole->value()));
+        } else if (const auto* opaque = dynamic_cast<const Imf::OpaqueAttribute*>(&attribute);
+                   opaque != nullptr && std::string_view(opaque->typeName()) == kOpaqueType) {
+            const auto* bytes = reinterpret_cast<const std::byte*>(static_cast<const char*>(opaque->data()));
+            keep(OpaqueBytes(bytes, bytes + opaque->dataSize()));
         }
     }
 }
@@ -237,6 +245,23 @@ private:
     bool isHeader_ = true;
 };
 
+// OpenEXR reads it as its base.
+class WrittenBytes : public Imf::OpaqueAttribute {
+public:
+    explicit WrittenBytes(OpaqueBytes bytes)
+        : OpaqueAttribute(kOpaqueType),
+          bytes_(std::move(bytes))
+    {}
+    Imf::Attribute* copy() const override { return new WrittenBytes(*this); }
+    void writeValueTo(Imf::OStream& stream, int /*version*/) const override
+    {
+        stream.write(reinterpret_cast<const char*>(bytes_.data()), static_cast<int>(bytes_.size()));
+    }
+
+private:
+    OpaqueBytes bytes_;
+};
+
 Imf::Header headerOf(const Image& image)
 {
     const auto left = static_cast<int>(image.columnsLeft), top = static_cast<int>(image.rowsAbove);
@@ -255,6 +280,8 @@ Imf::Header headerOf(const Image& image)
             Imath::M44f rows;
             std::memcpy(rows.x, glm::value_ptr(glm::transpose(*matrix)), sizeof rows.x);
             header.insert(name, Imf::M44fAttribute(rows));
+        } else if (const auto* bytes = std::get_if<OpaqueBytes>(&value)) {
+            header.insert(name, WrittenBytes(*bytes));
         } else {
             header.insert(name, Imf::StringAttribute(name == kHeaderDigest ? std::string(kDigits, '0') : std::get<std::string>(value)));
         }

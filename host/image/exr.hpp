@@ -10,8 +10,8 @@
 namespace glim {
 
 // Reads the first part of a file of scan lines or tiles (the finest level) with any compression. The upper left pixel of the data
-// window becomes (0, 0). Half and float channels become float channels, unsigned ones counts. Attributes are kept if they are numbers
-// or strings and not OpenEXR's own.
+// window becomes (0, 0). Half and float channels become float channels, unsigned ones counts. Attributes are kept if they are numbers,
+// strings or glim's bytes and not OpenEXR's own.
 Image readExr(const std::filesystem::path& path);
 
 // Reads only the size and the attributes.

@@ -47,7 +47,7 @@ void addCheckpoint(OptionTable& table, CheckpointOptions& options)
                   options.command);
 }
 
-CheckpointWriter::CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Film&)> label)
+CheckpointWriter::CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Checkpoint&)> label)
     : options_(options),
       output_(std::move(output)),
       label_(std::move(label)),
@@ -92,7 +92,7 @@ void CheckpointWriter::begin(Renderer& renderer)
     asked_ = false;
     last_ = Clock::now();
     samplesPerPixel_ = static_cast<double>(renderer.plan().pictureSamples()) / static_cast<double>(checkpoint->film.pixels.size());
-    label_(checkpoint->film);
+    label_(*checkpoint);
     writing_ = std::async(std::launch::async, [this, checkpoint = *std::move(checkpoint)] { return write(checkpoint); });
 }
 

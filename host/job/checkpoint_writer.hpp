@@ -37,8 +37,8 @@ private:
 
 class CheckpointWriter {
 public:
-    // `label`: what is known of the film besides what the renderer knows (scene file, camera).
-    CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Film&)> label);
+    // `label`: what is known of the film besides what the renderer knows (scene file, camera, guide).
+    CheckpointWriter(const CheckpointOptions& options, std::filesystem::path output, std::function<void(Checkpoint&)> label);
     // Waits for the checkpoint under way and for the command after it.
     ~CheckpointWriter();
     CheckpointWriter(const CheckpointWriter&) = delete;
@@ -61,7 +61,7 @@ private:
 
     CheckpointOptions options_;
     std::filesystem::path output_;
-    std::function<void(Film&)> label_;
+    std::function<void(Checkpoint&)> label_;
     bool asked_ = false;                    // by the user, and not done yet
     Clock::time_point last_;                // when the last one began
     double samplesPerPixel_ = 0.0;          // of that one

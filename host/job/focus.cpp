@@ -37,9 +37,7 @@ RenderJob FocusFinder::resolve(RenderJob options, SceneSession& session)
     const glm::uvec2 pixel = *options.focus;
     const auto [settings, camera] = makeWhole(options, session.prepared());
     refuseOutside("--focus", pixel, settings);
-    RenderJob unguided = options;  // the lens that is asked for changes the guide
-    unguided.guiding = GuidingChoice::Off;
-    const PictureFrame frame = framePicture(session, unguided, nullptr);
+    const PictureFrame frame = framePicture(session, options);
     const RenderResources& resources = session.beginAhead(frame.camera, frame.settings).resources();
     CameraRays rays(resources.device, *resources.shared, session.prepared().flat, camera, settings, std::move(kernels_), RayPlace::Centers);
     kernels_ = rays.kernels();

@@ -17,7 +17,13 @@
 
 namespace glim {
 
-PictureFrame framePicture(SceneSession& session, const RenderJob& options, const LearningObserver& observer)
+void PictureFrame::setGuide(LearnedGuide learned)
+{
+    settings.guide = learned.guide;
+    guide = std::move(learned);
+}
+
+PictureFrame framePicture(SceneSession& session, const RenderJob& options)
 {
     const Camera camera = makeCamera(session.prepared().scene, options);
     RenderSettings settings = settingsFor(options, camera);
@@ -38,15 +44,20 @@ PictureFrame framePicture(SceneSession& session, const RenderJob& options, const
         shaded.aov = settings.aov == Aov::Guide ? Aov::Radiance : settings.aov;  // whose guide is shown
         settings.caustics = session.choosesLightPaths(flatCamera, shaded);
     }
-    LearnedGuide learned;
-    if (options.guiding != GuidingChoice::Off) {
-        const GuideUse use = options.guiding == GuidingChoice::On ? GuideUse::Always : GuideUse::IfItPays;
-        learned = session.learnGuide(flatCamera, settings, use, observer);
-        settings.guide = learned.guide;
-    }
     return {flatCamera, settings,
             describeFilmCamera(camera, {settings.width, settings.height}, session.prepared().scene.origin, options.at),
-            camera.projection.crop, learned.gain};
+            camera.projection.crop};
+}
+
+bool answers(const LearnedGuide& guide, GuidingChoice choice)
+{
+    return choice == GuidingChoice::On ? guide.guide != nullptr : !guide.guide || guide.gain;
+}
+
+void learnGuide(SceneSession& session, const RenderJob& options, PictureFrame& frame, const LearningObserver& observer)
+{
+    const GuideUse use = options.guiding == GuidingChoice::On ? GuideUse::Always : GuideUse::IfItPays;
+    frame.setGuide(session.learnGuide(frame.camera, frame.settings, use, observer));
 }
 
 void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame)

@@ -16,14 +16,21 @@ namespace glim {
 struct PictureFrame {
     FlatCamera camera;
     RenderSettings settings;
-    std::string description;          // of the camera (film_camera.hpp)
-    std::optional<Crop> crop;         // of the picture
-    std::optional<double> guideGain;  // as measured, if --guiding is auto
+    std::string description;            // of the camera (film_camera.hpp)
+    std::optional<Crop> crop;           // of the picture
+    std::optional<LearnedGuide> guide;  // what there is to know of one, if --guiding asks; its settings have it too
+    bool keepsGuide = false;            // that is from a checkpoint
+
+    void setGuide(LearnedGuide learned);
 };
 
 // The session must be posed at the picture's time. Throws InputError for a camera that the scene lacks and for a picture that the device
-// has no memory for. `observer`: of the learning, if the picture is to have a guide; one that ends it must end the picture.
-PictureFrame framePicture(SceneSession& session, const RenderJob& options, const LearningObserver& observer);
+// has no memory for. Has no guide.
+PictureFrame framePicture(SceneSession& session, const RenderJob& options);
+// Whether this guide, which is of the picture, says all that --guiding asks for.
+bool answers(const LearnedGuide& guide, GuidingChoice choice);
+// Learns the guide that --guiding asks for. An observer that ends it must end the picture.
+void learnGuide(SceneSession& session, const RenderJob& options, PictureFrame& frame, const LearningObserver& observer);
 // What the film's light groups take, if it has some.
 void sayGroupMemory(const SceneSession& session, const RenderJob& options, const PictureFrame& frame);
 

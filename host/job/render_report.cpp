@@ -155,10 +155,12 @@ Json suspectsOf(const RenderReport& report)
 
 Json guideOf(const RenderReport& report)
 {
-    const auto& guide = report.guide;
-    return guide ? Json{{"gain", report.guideGain},          {"digest", guide->digest}, {"cells", guide->cells},
-                        {"scatterings", guide->scatterings}, {"paths", guide->paths},   {"seconds", guide->seconds}}
-                 : Json(nullptr);
+    if (!report.guide || !report.guide->guide) {
+        return nullptr;
+    }
+    const Guide& guide = *report.guide->guide;
+    return {{"gain", report.guide->gain}, {"digest", guide.digest}, {"cells", guide.cells}, {"scatterings", guide.scatterings},
+            {"paths", guide.paths},       {"seconds", guide.seconds}, {"kept", report.keepsGuide}};
 }
 
 std::uint32_t lightPathsOf(const Film& film) { return lightPathCount(film.width, film.rowsAbove + film.height + film.rowsBelow); }
@@ -251,12 +253,17 @@ std::string causticsText(const RenderReport& report)
 
 std::string guideText(const RenderReport& report)
 {
-    const auto& guide = report.guide;
-    if (!guide) {
-        return report.options.guiding == GuidingChoice::Auto ? ", without a guide, which would not pay" : "";
+    if (!report.guide) {
+        return "";
     }
-    return format(", guided by %u cells that %.3g paths made in %.3g s", guide->cells, static_cast<double>(guide->paths), guide->seconds) +
-           (report.guideGain ? format(" for %.2g times less noise in the same time", *report.guideGain) : "");
+    const auto& [guide, gain] = *report.guide;
+    const char* const from = report.keepsGuide ? " (from the checkpoint)" : "";
+    if (!guide) {
+        return std::string(", without a guide, which would not pay") + from;
+    }
+    return format(", guided by %u cells that %.3g paths made in %.3g s%s", guide->cells, static_cast<double>(guide->paths), guide->seconds,
+                  from) +
+           (gain ? format(" for %.2g times less noise in the same time", *gain) : "");
 }
 
 std::string rangeText(const RenderReport& report)

@@ -5,6 +5,7 @@
 #include "host/job/film_report.hpp"
 #include "host/job/render_job.hpp"
 #include "host/measure/control_bias.hpp"
+#include "host/render/learned_guide.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "host/render/suspects.hpp"
 
@@ -25,10 +26,10 @@ struct RenderReport {
     double writeSeconds;
     std::optional<double> idSeconds;  // of --ids, --surfaces and --objects
     std::vector<Suspect> suspects;
-    std::optional<ControlBias> bias;     // of adaptive renders
-    std::optional<Denoising> denoising;  // of --denoise
-    std::shared_ptr<const Guide> guide;  // null: paths were not guided
-    std::optional<double> guideGain;     // as in PictureFrame
+    std::optional<ControlBias> bias;           // of adaptive renders
+    std::optional<Denoising> denoising;        // of --denoise
+    const std::optional<LearnedGuide>& guide;  // as in PictureFrame
+    bool keepsGuide;                           // the same
 };
 
 // Of what is wrong or missing in a picture, as far as it is known.

@@ -189,6 +189,8 @@ public:
 private:
     RenderJob makeOptions(const Shot& shot) const;
     ExitCode renderShot(const RenderJob& options);
+    bool mayGoOn(const RenderJob& options) const;
+    bool takeGuide(const RenderJob& options, PictureFrame& frame) const;
     std::optional<StoredFilm> readOutput(const RenderJob& options, const PictureFrame& frame) const;
     bool keep(const RenderJob& options, const StoredFilm& stored);
     std::optional<Look> draw(const RenderJob& options, const Film& film);
@@ -291,21 +293,21 @@ std::optional<Look> SequenceRenderer::draw(const RenderJob& options, const Film&
 ExitCode SequenceRenderer::renderShot(const RenderJob& options)
 {
     const auto start = Clock::now();
-    ProgressPrinter learning(options.progress, std::nullopt, 1, place_);
-    const PictureFrame frame = framePicture(session_, options, [&](const LearningPause& pause) {
-        learning.printLearning(pause.done, secondsSince(start));
-        return watch_->signal() == 0;
-    });
-    learning.finish();
+    PictureFrame frame = framePicture(session_, options);
+    const OutputLock lock(options.mainFile());
+    if (options.guiding != GuidingChoice::Off && !takeGuide(options, frame)) {
+        ProgressPrinter learning(options.progress, std::nullopt, 1, place_);
+        learnGuide(session_, options, frame, [&](const LearningPause& pause) {
+            learning.printLearning(pause.done, secondsSince(start));
+            return watch_->signal() == 0;
+        });
+        learning.finish();
+    }
     if (watch_->signal() != 0) {
         return finish(watch_->signal(), place_.rendered == 0 ? "nothing was rendered or written"
                                                              : options.mainFile().string() + " and what follows was not rendered");
     }
-    const OutputLock lock(options.mainFile());
-    std::optional<StoredFilm> stored;
-    if (isSequence_ || options.checkpoint.resume) {
-        stored = readOutput(options, frame);
-    }
+    std::optional<StoredFilm> stored = readOutput(options, frame);
     if (stored && keep(options, *stored)) {
         return ExitCode::Done;
     }
@@ -317,7 +319,10 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
         resumeFrom(renderer, *std::move(stored), part::file(options.mainFile()));
     }
     stored.reset();
-    CheckpointWriter writer(options.checkpoint, options.mainFile(), [&](Film& film) { labelFilm(film, options, frame); });
+    CheckpointWriter writer(options.checkpoint, options.mainFile(), [&](Checkpoint& checkpoint) {
+        labelFilm(checkpoint.film, options, frame);
+        checkpoint.guide = frame.guide;
+    });
     ProgressPrinter progress(options.progress, frame.settings.seconds, frame.settings.pixelCount(), place_);
     RenderedFilm rendered;
     try {
@@ -341,10 +346,44 @@ ExitCode SequenceRenderer::renderShot(const RenderJob& options)
     return code;
 }
 
+// Whether there is a film at --output that the render may go on from or keep.
+bool SequenceRenderer::mayGoOn(const RenderJob& options) const
+{
+    return (isSequence_ || options.checkpoint.resume) && options.output && isThere(*options.output);
+}
+
+// Takes the guide of the checkpoint at --output, if it is of this picture, and says whether it did. readOutput() refuses to resume another
+// film by it: any guide of this picture would be refused too.
+bool SequenceRenderer::takeGuide(const RenderJob& options, PictureFrame& frame) const
+{
+    if (!mayGoOn(options)) {
+        return false;
+    }
+    PictureFrame guided = frame;
+    try {
+        std::optional<LearnedGuide> guide = readGuide(*options.output);
+        if (!guide || !answers(*guide, options.guiding)) {
+            return false;
+        }
+        guided.setGuide(*std::move(guide));
+        guided.keepsGuide = true;
+        if (!options.checkpoint.resume && findOther(readFilmHeader(*options.output), session_, guided, options)) {
+            return false;
+        }
+    } catch (const InputError&) {
+        if (options.checkpoint.resume) {
+            throw;
+        }
+        return false;
+    }
+    frame = std::move(guided);
+    return true;
+}
+
 // The film at --output, if it is of this picture. A film that cannot be resumed is refused; others are rendered anew.
 std::optional<StoredFilm> SequenceRenderer::readOutput(const RenderJob& options, const PictureFrame& frame) const
 {
-    if (!options.output || !isThere(*options.output)) {
+    if (!mayGoOn(options)) {
         return std::nullopt;
     }
     StoredFilm stored;
@@ -393,6 +432,9 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
         return finish(watch_->signal(), "some pixels had no sample yet, so " + options.mainFile().string() + " is left as it was");
     }
     labelFilm(film, options, frame);
+    if (rendered.checkpoint) {
+        rendered.checkpoint->guide = frame.guide;
+    }
     const std::optional<Denoising>& denoising = rendered.denoising;
     const auto start = Clock::now();
     std::optional<FilmDigests> digests = writeFilmOf(options, rendered, denoising);
@@ -425,8 +467,8 @@ ExitCode SequenceRenderer::writeShot(const RenderJob& options, const PictureFram
                               std::move(suspects),
                               bias,
                               denoising,
-                              frame.settings.guide,
-                              frame.guideGain};
+                              frame.guide,
+                              frame.keepsGuide};
     if (options.stats) {
         writeStatistics(*options.stats, report);
     }

@@ -424,9 +424,7 @@ Guide pack(std::vector<uvec4> texels, const std::vector<Cell>& cells, double mea
         guide.cells += cell.points.empty() ? 0 : 1;
     }
     guide.texels = std::move(texels);
-    Digest digest;
-    digest.add(guide.texels);
-    guide.digest = digest.finish().substr(0, 16);
+    guide.digest = digestOf(guide.texels);
     return guide;
 }
 
@@ -459,6 +457,13 @@ Guide buildGuide(std::span<const Root> roots)
 }  // namespace
 
 Guide emptyGuide(bool scatterings) { return GuideBuilder(scatterings).build(); }
+
+std::string digestOf(const std::vector<uvec4>& texels)
+{
+    Digest digest;
+    digest.add(texels);
+    return digest.finish().substr(0, 16);
+}
 
 void GuideBuilder::add(std::span<const GuideRecord> records)
 {

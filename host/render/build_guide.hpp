@@ -12,6 +12,9 @@ namespace glim {
 // One that knows nothing: it guides no path. `scatterings`: as in Guide.
 Guide emptyGuide(bool scatterings = false);
 
+// Of a guide's texels.
+std::string digestOf(const std::vector<uvec4>& texels);
+
 // What a record says of light. 24 bytes: there are millions.
 struct GuidePoint {
     vec3 p;

@@ -1,6 +1,7 @@
 // The state that a render needs to continue as if it had never stopped.
 #pragma once
 
+#include "host/render/learned_guide.hpp"
 #include "host/render/sample_plan.hpp"
 
 #include <array>
@@ -19,6 +20,7 @@ struct Checkpoint {
     // these were last taken.
     std::array<FilmMoments, 2> halves;
     FilmMoments before;
+    std::optional<LearnedGuide> guide;  // the answer of learnGuide() to the picture, if it was asked
 
     bool hasHalves() const { return !halves[0].pixels.empty() || !halves[1].pixels.empty(); }
 };
@@ -30,7 +32,7 @@ Film makeFilm(Checkpoint checkpoint);
 // if it lacks samples.
 std::optional<Checkpoint> makeCheckpoint(Film film);
 
-// SHA-256 of all of it but its halves and its film's time and device.
+// SHA-256 of all of it but its halves, its guide, which has its own, and its film's time and device.
 std::string computeDigest(const Checkpoint& checkpoint);
 // That of the halves, which earlier builds do not know; empty if there are none.
 std::string computeHalvesDigest(const Checkpoint& checkpoint);

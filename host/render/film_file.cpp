@@ -2,12 +2,15 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "host/render/build_guide.hpp"
+#include "host/render/check_guide.hpp"
 #include "host/render/film_layers.hpp"
 #include "host/render/film_place.hpp"
 #include "host/text.hpp"
 #include "version.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -34,6 +37,7 @@ constexpr std::uint32_t kBandRows = 256;  // written at once: 16 blocks of OpenE
 constexpr const char* kBackground = "glim:background";
 constexpr const char *kProgress = "glim:progress", *kProgressDigest = "glim:progressDigest";  // of checkpoints
 constexpr const char* kHalvesDigest = "glim:halvesDigest";                                    // of those with halves
+constexpr const char *kGuide = "glim:guide", *kGuideTexels = "glim:guideTexels", *kNoGuide = "none";
 constexpr const char *kHalves[] = {"firstHalf.", "secondHalf."}, *kBefore = "before.";
 
 bool hasErrors(const Film& film)
@@ -98,6 +102,21 @@ void addCheckpoint(const Checkpoint& checkpoint, const char* folded, const Run& 
             image.counts["blocksLater.X"] = copy(adaptive->blocksLater);
         }
     }
+}
+
+void addGuide(const LearnedGuide& learned, Image& image)
+{
+    const std::string gain = learned.gain ? " gain=" + exactText(*learned.gain) : "";
+    if (!learned.guide) {
+        image.attributes[kGuide] = kNoGuide + gain;
+        return;
+    }
+    const Guide& guide = *learned.guide;
+    image.attributes[kGuide] =
+        "cells=" + std::to_string(guide.cells) + " paths=" + std::to_string(guide.paths) + " seconds=" + exactText(guide.seconds) + gain;
+    // As they are: zstd would halve them, which is little of a film's file.
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(guide.texels));
+    image.attributes[kGuideTexels] = OpaqueBytes(bytes.begin(), bytes.end());
 }
 
 void addColors(std::span<const glm::vec3> colors, const std::string& layer, Image& image)
@@ -170,6 +189,9 @@ std::optional<FilmDigests> write(
         header.attributes[kProgress] = progressText(*checkpoint, folded);
         if (checkpoint->hasHalves()) {
             header.attributes[kHalvesDigest] = computeHalvesDigest(*checkpoint);
+        }
+        if (checkpoint->guide) {
+            addGuide(*checkpoint->guide, header);
         }
     }
     addRows(header, 0, 0);
@@ -278,6 +300,49 @@ Film filmOfImage(const fs::path& path, const Image& image)
     return film;
 }
 
+// A number of "cells=812 paths=131072"; nothing if it lacks it.
+template <class Number>
+std::optional<Number> findNumber(const std::string& text, const std::string& name)
+{
+    const std::string word = findSetting(text, name);
+    Number number{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
+}
+
+std::vector<uvec4> takeTexels(const fs::path& path, const Image& image, const std::string& digest)
+{
+    const auto bytes = attribute<OpaqueBytes>(path, image, kGuideTexels);
+    std::vector<uvec4> texels(bytes.size() / sizeof(uvec4));
+    std::memcpy(texels.data(), bytes.data(), texels.size() * sizeof(uvec4));
+    checkDigest(path, "guide", digestOf(texels), digest);
+    if (!hasSoundTrees(texels)) {
+        throw InputError(MessageId::FileDamaged, {part::file(path), ": is damaged: its ", part::place("guide"),
+                                                  " has trees that leave its ", part::value(counted(texels.size(), "texel")), " or meet."});
+    }
+    return texels;
+}
+
+// Of a film with these settings.
+std::optional<LearnedGuide> takeGuide(const fs::path& path, const Image& image, const std::string& settings)
+{
+    const std::string text = textIfPresent(image, kGuide), digest = findSetting(settings, "guide");
+    if (text.empty()) {
+        return std::nullopt;
+    }
+    LearnedGuide learned{nullptr, findNumber<double>(text, "gain")};
+    const auto cells = findNumber<std::uint32_t>(text, "cells");
+    const auto paths = findNumber<std::uint64_t>(text, "paths");
+    const auto seconds = findNumber<double>(text, "seconds");
+    if (!digest.empty() && cells && paths && seconds) {
+        learned.guide = std::make_shared<const Guide>(Guide{takeTexels(path, image, digest), digest, *cells, *paths, *seconds});
+    } else if (!digest.empty() || !text.starts_with(kNoGuide)) {
+        throw InputError(MessageId::FileDamaged,
+                         {part::file(path), ": is damaged: its ", part::place("guide"), " is ", part::quoted(text), "."});
+    }
+    return learned;
+}
+
 Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& film)
 {
     Checkpoint checkpoint;
@@ -331,6 +396,7 @@ Checkpoint readCheckpoint(const fs::path& path, const Image& image, const Film& 
         takeMoments(path, image, {}, checkpoint.before, kBefore);
         checkDigest(path, "halves", computeHalvesDigest(checkpoint), digest);
     }
+    checkpoint.guide = takeGuide(path, image, film.identity.settings);
     return checkpoint;
 }
 
@@ -396,6 +462,12 @@ StoredFilm readStoredFilm(const fs::path& path)
         stored.checkpoint = readCheckpoint(path, image, stored.film);
     }
     return stored;
+}
+
+std::optional<LearnedGuide> readGuide(const fs::path& path)
+{
+    const Image image = readSealed(path, readExrHeader);
+    return takeGuide(path, image, textIfPresent(image, "glim:settings"));
 }
 
 Film readFilmHeader(const fs::path& path) { return filmOfHeader(path, readSealed(path, readExrHeader)); }

@@ -12,7 +12,9 @@
 //
 // A checkpoint is such a film and has more layers: page.* and folded.*, the finished blocks of the last page and the pages before it; with
 // --adaptive neighbours common.*, chosen.X and blocksLeft.X; with --denoise firstHalf.* and secondHalf.* (checkpoint.hpp). The attribute
-// glim:progress says where the render is.
+// glim:progress says where the render is. glim:guide has what is known of the picture's guide, or "none" if --guiding auto has found that
+// it would not pay; glim:guideTexels has its texels, in a type of its own, "glim", which other programs pass over. Its digest is in
+// glim:settings (guide=). Earlier builds pass both over and learn anew.
 //
 // denoised.RGB, denoisedError.RGB   a denoised picture and its estimated RMSE, for viewing: reading a film ignores them
 //
@@ -65,6 +67,9 @@ struct StoredFilm {
 
 // Refuses (InputError) what readFilm refuses, and damaged checkpoints.
 StoredFilm readStoredFilm(const std::filesystem::path& path);
+
+// The guide of its checkpoint, if it says something of one; without reading pixels. Refuses (InputError) a damaged one.
+std::optional<LearnedGuide> readGuide(const std::filesystem::path& path);
 
 // All but `pixels`.
 Film readFilmHeader(const std::filesystem::path& path);

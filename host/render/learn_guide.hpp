@@ -1,6 +1,7 @@
 // Learns where light comes from, before the picture, by paths of its own.
 #pragma once
 
+#include "host/render/learned_guide.hpp"
 #include "host/render/renderer.hpp"
 
 #include <functional>
@@ -17,11 +18,6 @@ struct LearningPause {
 using LearningObserver = std::function<bool(const LearningPause&)>;
 
 enum class GuideUse { Always, IfItPays };
-
-struct LearnedGuide {
-    std::shared_ptr<const Guide> guide;  // null: it would not pay, or the observer has ended it
-    std::optional<double> gain;          // of IfItPays: work (noise.hpp) and time of lookups without a guide over those with it
-};
 
 // What paths of a picture by these settings are guided by: the same on all devices whose pictures have the same bits, and for all samples,
 // seeds and rows. Throws DeviceError if the device's driver cannot compile the kernel in reasonable time. Shares the resources of

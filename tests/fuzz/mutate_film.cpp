@@ -1,5 +1,6 @@
 // Mutants of films. Damaged pixels fail at the film's digest, so half of the mutants are films that glim has read, changed and written.
 #include "host/error.hpp"
+#include "host/render/build_guide.hpp"
 #include "host/render/film_camera.hpp"
 #include "host/render/film_file.hpp"
 #include "tests/fuzz/mutate_exr.hpp"
@@ -43,6 +44,9 @@ public:
             change(stored.film, choice);
             if (stored.checkpoint && choice.oneIn(2)) {
                 change(*stored.checkpoint, choice);
+            }
+            if (stored.checkpoint && stored.checkpoint->guide && choice.oneIn(2)) {
+                changeGuide(stored, choice);
             }
             if (stored.checkpoint) {
                 writeFilm(file_, stored.film, *stored.checkpoint);
@@ -120,6 +124,18 @@ private:
             change(*counts, choice);
         }
         checkpoint.common.pixels.resize(checkpoint.film.pixels.size());
+    }
+
+    static void changeGuide(StoredFilm& stored, Choice& choice)
+    {
+        Guide guide = emptyGuide();
+        if (const auto& known = stored.checkpoint->guide->guide) {
+            guide = *known;
+            change(guide.texels, choice);
+            guide.digest = digestOf(guide.texels);
+        }
+        stored.film.identity.settings = "guide=" + guide.digest;
+        stored.checkpoint->guide->guide = std::make_shared<const Guide>(std::move(guide));
     }
 
     fs::path file_;

@@ -150,6 +150,11 @@ const fs::path& anotherFilm()
     return file;
 }
 
+std::vector<uvec4> texelsOf(const Checkpoint& checkpoint)
+{
+    return checkpoint.guide && checkpoint.guide->guide ? checkpoint.guide->guide->texels : std::vector<uvec4>();
+}
+
 // What was read is written again and then reads as the same.
 Defect findRoundTripDefect(const StoredFilm& stored)
 {
@@ -166,6 +171,9 @@ Defect findRoundTripDefect(const StoredFilm& stored)
     if (stored.checkpoint && (!back.checkpoint || computeDigest(*back.checkpoint) != computeDigest(*stored.checkpoint))) {
         return "a checkpoint that is written again is not the same";
     }
+    if (stored.checkpoint && texelsOf(*back.checkpoint) != texelsOf(*stored.checkpoint)) {
+        return "a guide that is written again is not the same";
+    }
     return std::nullopt;
 }
 
@@ -177,6 +185,7 @@ Defect film(Bytes bytes)
     Defect defect = findDefect(file.string() + ": ", [&] {
         const StoredFilm stored = readStoredFilm(file);
         lost = findRoundTripDefect(stored);
+        readGuide(file);
         makeCheckpoint(stored.film);
         if (stored.checkpoint) {
             makeFilm(*stored.checkpoint);

@@ -6,6 +6,7 @@
 #include "shaders/shared/limits.h"
 #include "tests/support/compress_geometry.hpp"
 #include "tests/support/encode_images.hpp"
+#include "tests/support/guide_records.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -256,6 +257,12 @@ void writeFilms(const fs::path& folder)
     writeFilm(folder / "whole_page.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.page = checkpoint.film;
     writeFilm(folder / "page.exr", makeFilm(checkpoint), checkpoint);
+    Random random(1);
+    const auto guide = std::make_shared<const Guide>(guideOf(recordsOfBall(600, random)));
+    Checkpoint guided = checkpoint;
+    guided.guide = LearnedGuide{guide, 2.5};
+    guided.film.identity.settings += " guide=" + guide->digest;
+    writeFilm(folder / "guide.exr", makeFilm(guided), guided);
     checkpoint.halves = {checkpoint.page, checkpoint.page};
     writeFilm(folder / "halves.exr", makeFilm(checkpoint), checkpoint);
     checkpoint.halves = {};

@@ -40,6 +40,10 @@ Image makeImage()
     image.channels["albedo.G"] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     image.counts["count.X"] = {0, 1, (1U << 24) + 1, 0xFFFFFFFFU, 4, 5, 6, 7, 8, 9};
     image.attributes = {{"glim:seed", 4294967295.0}, {"glim:scene", std::string("a \"b\"\nc")}, {"third", 1.0 / 3.0}};
+    OpaqueBytes& bytes = image.attributes["bytes"].emplace<OpaqueBytes>();
+    for (int i = 0; i < 1000; ++i) {
+        bytes.push_back(static_cast<std::byte>(i));
+    }
     return image;
 }
 

@@ -3,6 +3,7 @@
 #include "host/image/exr.hpp"
 #include "host/measure/compare_images.hpp"
 #include "tests/support/expect_message.hpp"
+#include "tests/support/guide_records.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/simulated_film.hpp"
 
@@ -428,6 +429,100 @@ TEST_F(FilmFileRefusal, OfACameraWithoutAPose)
         image.attributes["glim:camera"] = std::string(camera);
         expectRefused(MessageId::Malformed, {.place = "camera", .value = camera});
     }
+}
+
+// With a guide that knows something.
+Checkpoint guidedCheckpoint()
+{
+    Random random(1);
+    const auto guide = std::make_shared<Guide>(guideOf(recordsOfBall(20'000, random)));
+    guide->paths = (1ULL << 53U) + 1;
+    guide->seconds = 1.0 / 3.0;
+    Checkpoint checkpoint;
+    checkpoint.film = simulateFilm(0, 256);
+    checkpoint.film.identity.settings = "seed=1 guide=" + guide->digest + " bounces=64";
+    checkpoint.progress.sample = checkpoint.progress.lightSample = 256;
+    checkpoint.guide = LearnedGuide{guide, 1e-1};
+    return checkpoint;
+}
+
+TEST(FilmFile, CheckpointsKeepTheGuide)
+{
+    const ScratchFolder folder;
+    const Checkpoint checkpoint = guidedCheckpoint();
+    const Guide& guide = *checkpoint.guide->guide;
+    writeFilm(folder / "a.exr", checkpoint.film, checkpoint);
+    for (const auto& back : {readGuide(folder / "a.exr"), readStoredFilm(folder / "a.exr").checkpoint->guide}) {
+        ASSERT_TRUE(back && back->guide);
+        EXPECT_EQ(back->guide->texels, guide.texels);
+        EXPECT_EQ(back->guide->digest, guide.digest);
+        EXPECT_EQ(back->guide->cells, guide.cells);
+        EXPECT_EQ(back->guide->paths, guide.paths);
+        EXPECT_EQ(back->guide->seconds, guide.seconds);
+        EXPECT_EQ(back->gain, 1e-1);
+    }
+    writeFilm(folder / "a.exr", checkpoint.film);
+    EXPECT_FALSE(readGuide(folder / "a.exr"));
+    EXPECT_FALSE(readExr(folder / "a.exr").attributes.contains("glim:guideTexels"));
+}
+
+TEST(FilmFile, CheckpointsKnowThatAGuideWouldNotPay)
+{
+    const ScratchFolder folder;
+    Checkpoint checkpoint = guidedCheckpoint();
+    checkpoint.film.identity.settings = "seed=1 bounces=64";
+    for (const std::optional<double> gain : {std::optional<double>(), std::optional(0.75)}) {
+        checkpoint.guide = LearnedGuide{nullptr, gain};
+        writeFilm(folder / "a.exr", checkpoint.film, checkpoint);
+        const auto back = readGuide(folder / "a.exr");
+        ASSERT_TRUE(back);
+        EXPECT_FALSE(back->guide);
+        EXPECT_EQ(back->gain, gain);
+    }
+}
+
+// As by someone who knows how the header is sealed.
+TEST(FilmFile, RefusesDamagedGuides)
+{
+    const ScratchFolder folder;
+    const auto path = folder / "a.exr";
+    const Checkpoint checkpoint = guidedCheckpoint();
+    writeFilm(path, checkpoint.film, checkpoint);
+    const Image image = readExr(path);
+    const auto expectDamaged = [&](const Image& damaged, MessageId id, const test::Parts& parts) {
+        writeExr(path, damaged);
+        expectRefusal<InputError>([&] { readGuide(path); }, id, parts);
+    };
+    Image damaged = image;
+    auto& bytes = std::get<OpaqueBytes>(damaged.attributes.at("glim:guideTexels"));
+    bytes[16 * kUniformQuadtree + 1] ^= std::byte{1};
+    expectDamaged(damaged, MessageId::FileDamaged, {.place = "guide", .expected = checkpoint.guide->guide->digest});
+    damaged = image;
+    damaged.attributes.erase("glim:guideTexels");
+    expectDamaged(damaged, MessageId::UnknownFormat, {.place = "glim:guideTexels"});
+    for (const char* text : {"none", "cells=1 paths=2", "cells=1 paths=2 seconds=x", "cells=-1 paths=2 seconds=3"}) {
+        damaged = image;
+        damaged.attributes["glim:guide"] = text;
+        expectDamaged(damaged, MessageId::FileDamaged, {.place = "guide", .value = text});
+    }
+    damaged = image;
+    damaged.attributes["glim:settings"] = "seed=1 bounces=64";
+    expectDamaged(damaged, MessageId::FileDamaged, {.place = "guide"});
+}
+
+// Its digest is right, but its first tree leads into the second one.
+TEST(FilmFile, RefusesGuidesThatNoDescentEndsIn)
+{
+    const ScratchFolder folder;
+    Checkpoint checkpoint = guidedCheckpoint();
+    Guide crafted = *checkpoint.guide->guide;
+    crafted.texels[0].w = crafted.texels[1].w;
+    crafted.digest = digestOf(crafted.texels);
+    checkpoint.film.identity.settings = "guide=" + crafted.digest;
+    checkpoint.guide->guide = std::make_shared<const Guide>(crafted);
+    writeFilm(folder / "a.exr", checkpoint.film, checkpoint);
+    expectRefusal<InputError>([&] { readStoredFilm(folder / "a.exr"); }, MessageId::FileDamaged,
+                              {.place = "guide", .value = std::to_string(crafted.texels.size()) + " texels"});
 }
 
 // Where the table of rows begins, after the empty name that ends the header.

@@ -1,4 +1,5 @@
 // --guiding: the film knows its guide, and whatever ends or divides a render, the bits are those of one run.
+#include "host/image/exr.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/settings.hpp"
 #include "tests/support/expect_message.hpp"
@@ -35,6 +36,7 @@ protected:
         EXPECT_EQ(run.exitCode, 0) << run.err;
         return run;
     }
+    json guideIn(const char* stats) const { return json::parse(readFileBytes(folder_ / stats)).at("guide"); }
     std::string digestOf(const char* film) const { return computeDigest(readFilm(folder_ / film)); }
 
     ScratchFolder folder_;
@@ -45,14 +47,17 @@ TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
 {
     run({"-o", "whole.exr", "--spp", "3000", "--guiding", "on"});
     int kills = 0;
+    bool isKept = false;
     for (std::size_t lines = 1;; ++lines) {
-        GlimCall killed =
-            call({"-o", "film.exr", "--spp", "3000", "--guiding", "on", "--resume", "--checkpoint", "0.01s", "--progress", "json"});
+        isKept = std::filesystem::exists(folder_ / "film.exr") && readStoredFilm(folder_ / "film.exr").checkpoint;
+        GlimCall killed = call({"-o", "film.exr", "--spp", "3000", "--guiding", "on", "--resume", "--checkpoint", "0.01s", "--progress",
+                                "json", "--stats", "film.json"});
         killed.signalWhen = [lines](const std::string& err) {
             return countLines(err) > lines && contains(err, "\"samples\":");  // after the learning
         };
         killed.signal = lines % 2 == 0 ? SIGTERM : SIGKILL;
         const GlimRun ended = runGlim(killed);
+        EXPECT_EQ(contains(ended.err, "\"learned\":"), !isKept) << "the checkpoint has the guide";
         if (ended.exitCode == 0) {
             break;
         }
@@ -60,6 +65,39 @@ TEST_F(CommandLineGuidingTest, KilledItGoesOnWithTheSameBits)
     }
     EXPECT_GT(kills, 0);
     EXPECT_EQ(digestOf("film.exr"), digestOf("whole.exr"));
+    EXPECT_EQ(guideIn("film.json").at("kept").get<bool>(), isKept);
+    EXPECT_TRUE(isKept);
+}
+
+TEST_F(CommandLineGuidingTest, GoesOnByTheGuideOfTheCheckpoint)
+{
+    run({"-o", "film.exr", "--guiding", "on", "--resume", "--spp", "64", "--stats", "first.json"});
+    run({"-o", "film.exr", "--guiding", "on", "--resume", "--spp", "128", "--stats", "second.json"});
+    EXPECT_FALSE(guideIn("first.json").at("kept").get<bool>());
+    json kept = guideIn("second.json");
+    EXPECT_TRUE(kept.at("kept").get<bool>());
+    kept["kept"] = false;
+    EXPECT_EQ(kept, guideIn("first.json"));
+    const GlimRun other =
+        runForMessages(call({"-o", "film.exr", "--guiding", "on", "--resume", "--spp", "256", "--bounces", "3", "--progress", "json"}));
+    expectRefused(other, 1, MessageId::Mismatch, {.place = "setting", .value = "\"bounces=64\"", .expected = "\"bounces=3\""});
+    EXPECT_FALSE(contains(other.err, "\"learned\":")) << "it is refused at once";
+    run({"-o", "whole.exr", "--guiding", "on", "--spp", "128"});
+    EXPECT_EQ(digestOf("film.exr"), digestOf("whole.exr"));
+    EXPECT_FALSE(readGuide(folder_ / "whole.exr")) << "it has no checkpoint";
+}
+
+// One that would render another picture.
+TEST_F(CommandLineGuidingTest, ADamagedGuideIsRefused)
+{
+    run({"-o", "film.exr", "--guiding", "on", "--resume", "--spp", "64"});
+    Image image = readExr(folder_ / "film.exr");
+    std::get<OpaqueBytes>(image.attributes.at("glim:guideTexels")).front() ^= std::byte{1};
+    writeExr(folder_ / "film.exr", image);
+    const std::string before = readFileBytes(folder_ / "film.exr");
+    expectRefused(runForMessages(call({"-o", "film.exr", "--guiding", "on", "--resume", "--spp", "128"})), 1, MessageId::FileDamaged,
+                  {.file = "film.exr", .place = "guide"});
+    EXPECT_EQ(readFileBytes(folder_ / "film.exr"), before);
 }
 
 TEST_F(CommandLineGuidingTest, LearningSaysHowFarItIsAndCanBeEnded)
@@ -87,19 +125,25 @@ TEST_F(CommandLineGuidingTest, LearningSaysHowFarItIsAndCanBeEnded)
 TEST_F(CommandLineGuidingTest, AutoGoesWithoutAGuideThatWouldNotPay)
 {
     run({"-o", "off.exr", "--spp", "64"});
-    const GlimRun without = run({"-o", "auto.exr", "--spp", "64", "--guiding", "auto", "--stats", "auto.json"});
+    const GlimRun without = run({"-o", "auto.exr", "--spp", "64", "--guiding", "auto", "--stats", "auto.json", "--resume"});
     EXPECT_NE(without.out.find("without a guide, which would not pay"), std::string::npos) << without.out;
-    EXPECT_TRUE(json::parse(readFileBytes(folder_ / "auto.json")).at("guide").is_null());
+    EXPECT_TRUE(guideIn("auto.json").is_null());
     EXPECT_EQ(digestOf("auto.exr"), digestOf("off.exr"));
+    const GlimRun resumed = run({"-o", "auto.exr", "--spp", "128", "--guiding", "auto", "--resume"});
+    EXPECT_NE(resumed.out.find("would not pay (from the checkpoint)"), std::string::npos) << resumed.out;
 }
 
 TEST_F(CommandLineGuidingTest, AutoSaysWhatItGains)
 {
     scene_ = "door_ajar.gltf";
     size_ = "48x48";
-    const GlimRun guided = run({"-o", "auto.exr", "--spp", "64", "--guiding", "auto", "--stats", "auto.json"});
-    EXPECT_GT(json::parse(readFileBytes(folder_ / "auto.json")).at("guide").at("gain").get<double>(), 1.0);
+    const GlimRun guided = run({"-o", "auto.exr", "--spp", "64", "--guiding", "auto", "--resume", "--stats", "auto.json"});
+    const double gain = guideIn("auto.json").at("gain").get<double>();
+    EXPECT_GT(gain, 1.0);
     EXPECT_NE(guided.out.find("times less noise in the same time"), std::string::npos) << guided.out;
+    run({"-o", "auto.exr", "--spp", "128", "--guiding", "auto", "--resume", "--stats", "auto.json"});
+    EXPECT_TRUE(guideIn("auto.json").at("kept").get<bool>());
+    EXPECT_EQ(guideIn("auto.json").at("gain").get<double>(), gain);
 }
 
 TEST_F(CommandLineGuidingTest, PartsAreMergedToTheBitsOfOneRun)
@@ -113,7 +157,7 @@ TEST_F(CommandLineGuidingTest, PartsAreMergedToTheBitsOfOneRun)
     const GlimRun merged = runGlim(merge);
     EXPECT_EQ(merged.exitCode, 0) << merged.err;
     EXPECT_EQ(digestOf("merged.exr"), digestOf("whole.exr"));
-    const json guide = json::parse(readFileBytes(folder_ / "whole.json")).at("guide");
+    const json guide = guideIn("whole.json");
     EXPECT_EQ(guide.at("digest").get<std::string>(), findSetting(readFilm(folder_ / "whole.exr").identity.settings, "guide"));
     EXPECT_GT(guide.at("cells").get<int>(), 0);
     EXPECT_GT(guide.at("paths").get<int>(), 0);
