@@ -177,12 +177,36 @@ TEST_F(CommandLineGuidingTest, FramesLearnWhatTheyLearnAlone)
     EXPECT_NE(guides[0], guides[1]);
 }
 
+// The guide of a checkpoint is of the film that is there, and --guiding asks for one that pays, for any or for none.
 TEST_F(CommandLineGuidingTest, NoFilmGoesOnWithoutItsGuide)
 {
-    run({"-o", "film.exr", "--spp", "64", "--guiding", "on"});
-    const GlimRun refused = runForMessages(call({"-o", "film.exr", "--spp", "128", "--resume"}));
-    EXPECT_EQ(refused.exitCode, 1);
-    EXPECT_NE(refused.err.find("guide"), std::string::npos) << refused.err;
+    const auto expectOther = [&](std::vector<std::string> guiding) {
+        guiding.insert(guiding.end(), {"-o", "film.exr", "--spp", "128", "--resume"});
+        const GlimRun refused = runForMessages(call(guiding));
+        EXPECT_EQ(refused.exitCode, 1);
+        EXPECT_NE(refused.err.find("guide="), std::string::npos) << refused.err;
+    };
+    run({"-o", "film.exr", "--spp", "64", "--guiding", "on", "--resume"});
+    expectOther({});
+    expectOther({"--guiding", "auto"});
+    std::filesystem::remove(folder_ / "film.exr");
+    run({"-o", "film.exr", "--spp", "64", "--guiding", "auto", "--resume"});
+    expectOther({"--guiding", "on"});
+}
+
+TEST_F(CommandLineGuidingTest, SequencesKeepAGuideOfTheSamePictureAlone)
+{
+    const auto turn = [&](const std::string& film, const std::string& bounces) {
+        return run({"-o", film, "--spp", "64", "--guiding", "on", "--turntable", "1", "--checkpoint", "1h", "--bounces", bounces,
+                    "--progress", "json"});
+    };
+    turn("film#.exr", "2");
+    turn("film#.exr", "3");
+    turn("other#.exr", "3");
+    EXPECT_EQ(digestOf("film0.exr"), digestOf("other0.exr"));
+    const GlimRun kept = turn("film#.exr", "3");
+    EXPECT_NE(kept.out.find("is whole and was kept"), std::string::npos) << kept.out;
+    EXPECT_FALSE(contains(kept.err, "\"learned\":")) << kept.err;
 }
 
 TEST_F(CommandLineGuidingTest, ReplayHasTheBitsOfTheFilm)
