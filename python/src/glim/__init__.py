@@ -24,7 +24,7 @@ import numpy
 from glim._additions import Light, Plane, written
 from glim._camera import Camera
 from glim._elements import Addition, Elements, FileCamera, Image, Material, Node, PunctualLight, SceneFile, columns_of
-from glim._errors import DeviceError, GlimWarning, InputError, unusable
+from glim._errors import DeviceError, GlimWarning, InputError, library_missing, unusable
 from glim._options import additions_of, in_python, path_of, values_of
 from glim._own_files import OwnFile, texels_of
 from glim._version import __version__
@@ -50,8 +50,7 @@ def _native():
         from glim import _glim
     except ImportError as error:
         if "libvulkan" in str(error):
-            raise DeviceError("Vulkan's loader is missing (%s); Debian has it and a software device in libvulkan1 and mesa-vulkan-drivers."
-                              % error, id="library-missing") from error
+            raise library_missing(error) from error
         raise
     if not _native.listens:
         _glim.listen(_hear)

@@ -24,5 +24,11 @@ class DeviceError(_Message, RuntimeError):
     """Vulkan or its device failed or is missing, in one sentence."""
 
 
+def library_missing(error):
+    """The DeviceError for what the dynamic linker says of Vulkan's loader, or of a library that comes with its drivers."""
+    return DeviceError("A library of the system is missing (%s); Debian has Vulkan's loader, a software device and what both need: "
+                       "apt-get install libvulkan1 mesa-vulkan-drivers" % error, id="library-missing")
+
+
 class GlimWarning(_Message, UserWarning):
     """Something may make a picture other than its user expects."""
