@@ -213,6 +213,7 @@ set(onlyInCi
     PythonRandomDomainTest
     PythonRobotCameraTest
     PythonUseTest
+    PythonWheelTest
 )
 # Of the families above.
 set(byDefault

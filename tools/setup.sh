@@ -46,6 +46,9 @@ packagePackages=(
     "dpkg-dev                  finds out what a package depends on"
     "file                      tells cpack which files are programs"
 )
+wheelPackages=(
+    "python3-dev               Python's headers, for the module"
+)
 fuzzPackages=(
     "clang-19                  compiles the fuzz targets"
     "libclang-rt-19-dev        has libFuzzer and the sanitizers"
@@ -59,7 +62,7 @@ testPackages=(
     "xdotool                   presses its keys and moves its mouse"
     "xauth                     lets a session by hand on it (xvfb-run)"
     "python3-venv              installs what six tests need from PyPI"
-    "python3-dev               Python's headers, for the module"
+    "${wheelPackages[@]}"
     "python3-yaml              reads the workflow that README.md shows"
     "openssl                   makes certificates for the farm's tests"
     "${studyPackages[@]}"
@@ -306,6 +309,10 @@ ensureTool() { ensure "command -v $1" "$1 was not found" "${@:2}"; }
 
 # Python and what makes its environments.
 ensureVenv() { ensure "python3 -m ensurepip --version" "no python3 with venv was found" "${venvPackages[@]}"; }
+
+hasPythonHeaders() {
+    python3 -c 'import os, sysconfig; raise SystemExit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))'
+}
 
 # The first Python that has what the study needs; a user's own may shadow the system's.
 findPython() {

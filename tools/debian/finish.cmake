@@ -9,7 +9,8 @@ set(doc ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/doc/glim)
 
 # Licences of what the compiler has put into the program: libraries of headers alone, and one that Debian has as an archive.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/copyright copyright)
-foreach(package IN ITEMS libcli11-dev libglm-dev libimgui-dev libtinygltf-dev nlohmann-json3-dev spirv-tools)
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/compiled_in packages)
+foreach(package IN LISTS packages)
     file(READ /usr/share/doc/${package}/copyright licence)
     string(APPEND copyright "\n\n==== ${package} ====\n\n${licence}")
 endforeach()
