@@ -71,6 +71,23 @@ class HelpTest(unittest.TestCase):
         for options in (("render", "--help"), ("render", "scene.gltf", "--help-all"), ("view", "-h")):
             self.expect_help("glim", *options)
 
+    def test_packages_of_other_kinds(self):
+        result = self.run_tool("package", "rpm")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertRegex(result.stderr, "^tools/package: unknown option 'rpm'\nusage: tools/package \\[deb")
+
+    def test_packages_are_tried_where_that_can_be(self):
+        def expect(code, said, *arguments):
+            result = self.run_tool("try_package", *arguments)
+            self.assertEqual((result.returncode, result.stdout), (code, ""))
+            self.assertRegex(result.stderr, said)
+        expect(2, "^usage: tools/try_package")
+        expect(1, "^glim: none.whl is not there; tools/package makes packages\n$", "none.whl")
+        self.add_program("id", "echo 1000\n")
+        expect(1, "^glim: tools/try_package needs root, as debootstrap and chroot do\n$", "host/cli/README.md")
+        self.add_program("id", "echo 0\n")
+        expect(1, "^glim: no debootstrap was found, which makes minimal systems; please install [^\n]*\n$", "host/cli/README.md")
+
     def test_without_python(self):
         os.remove(os.path.join(self.programs, "python3"))
         for name in ("farm", "gpu_check", "plot_bench", "study", "to_gltf"):
