@@ -159,8 +159,10 @@ Json guideOf(const RenderReport& report)
         return nullptr;
     }
     const Guide& guide = *report.guide->guide;
-    return {{"gain", report.guide->gain}, {"digest", guide.digest}, {"cells", guide.cells}, {"scatterings", guide.scatterings},
-            {"paths", guide.paths},       {"seconds", guide.seconds}, {"kept", report.keepsGuide}};
+    return {{"gain", report.guide->gain}, {"digest", guide.digest},
+            {"cells", guide.cells},       {"scatterings", guideScatterings(guide.texels)},
+            {"paths", guide.paths},       {"seconds", guide.seconds},
+            {"kept", report.keepsGuide}};
 }
 
 std::uint32_t lightPathsOf(const Film& film) { return lightPathCount(film.width, film.rowsAbove + film.height + film.rowsBelow); }

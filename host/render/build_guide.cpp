@@ -488,9 +488,7 @@ Guide GuideBuilder::build()
     if (scatterings_) {
         roots.emplace_back(kGuideOfScatterings, scattered_);
     }
-    Guide guide = buildGuide(roots);
-    guide.scatterings = scatterings_;
-    return guide;
+    return buildGuide(roots);
 }
 
 }  // namespace glim

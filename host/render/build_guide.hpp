@@ -9,7 +9,7 @@
 
 namespace glim {
 
-// One that knows nothing: it guides no path. `scatterings`: as in Guide.
+// One that knows nothing: it guides no path. `scatterings`: it is for those in media, too.
 Guide emptyGuide(bool scatterings = false);
 
 // Of a guide's texels.

@@ -1,6 +1,6 @@
 #include "host/render/check_guide.hpp"
 
-#include "shaders/shared/guide_types.h"
+#include "host/render/guide.hpp"
 
 #include <array>
 #include <bit>
@@ -23,6 +23,9 @@ public:
             reach(root, nodes_);
         }
         checkQuadtree(kUniformQuadtree);
+        if (guideScatterings(texels_)) {
+            reach(kGuideOfScatterings, nodes_);
+        }
         while (isSound_ && !nodes_.empty()) {
             checkNode(take(nodes_));
         }

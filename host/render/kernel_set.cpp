@@ -65,7 +65,7 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constants[kSpecNotes] = settings.notes;
     constants[kSpecGuided] = settings.guide || settings.learns;
     constants[kSpecLearns] = settings.learns;
-    constants[kSpecGuidedScatterings] = settings.guide && settings.guide->scatterings;
+    constants[kSpecGuidedScatterings] = settings.guide && guideScatterings(settings.guide->texels);
     constants[kSpecPathsPerThread] = rulesOf(device.deviceClass).pathsPerThread;
     constexpr std::size_t kSharedBytes = 16384;  // that every device has
     const std::size_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;

@@ -118,7 +118,7 @@ private:
     const LearningObserver& observer_;
     const std::uint32_t atOnce_;  // pixels
     std::unique_ptr<Tile> tile_;
-    GuideBuilder builder_{resources_.settings.guide->scatterings};
+    GuideBuilder builder_{guideScatterings(resources_.settings.guide->texels)};
     std::uint32_t portions_ = 0;  // traced
     double work_ = std::numeric_limits<double>::infinity();
 };
@@ -166,7 +166,7 @@ LearnedGuide learnGuide(const Renderer& renderer, const FlatScene& scene, const 
         if (!guide) {
             return {};
         }
-        const double work = learner.work() * (guide->scatterings ? kLookupsOfScatterings : 1.0);
+        const double work = learner.work() * (guideScatterings(guide->texels) ? kLookupsOfScatterings : 1.0);
         if (!best || work < leastWork) {
             best = std::move(guide);
             leastWork = work;

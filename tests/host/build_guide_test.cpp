@@ -57,8 +57,8 @@ TEST(BuildGuideTest, KnowsOfScatteringsIfItIsAskedTo)
     EXPECT_EQ(onlyCell(surfaces, kGuideOfScatterings).quadtree, kUniformQuadtree);
     EXPECT_EQ(onlyCell(both, 0).quadtree, kUniformQuadtree);
     EXPECT_GE(both.cells, 60000U / 2048U);
-    EXPECT_TRUE(both.scatterings);
-    EXPECT_FALSE(guideOf(records).scatterings);
+    EXPECT_TRUE(guideScatterings(both.texels));
+    EXPECT_FALSE(guideScatterings(guideOf(records).texels));
 }
 
 TEST(BuildGuideTest, LeavesOutWhatIsNoRecord)

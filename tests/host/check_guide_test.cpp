@@ -20,6 +20,14 @@ TEST(CheckGuideTest, TreesThatAreBuiltAreSound)
 {
     EXPECT_TRUE(hasSoundTrees(emptyGuide().texels));
     EXPECT_TRUE(hasSoundTrees(texelsOfBall()));
+    EXPECT_TRUE(hasSoundTrees(emptyGuide(true).texels));
+}
+
+TEST(CheckGuideTest, SoIsTheTreeOfScatterings)
+{
+    Texels texels = emptyGuide(true).texels;
+    texels[kGuideOfScatterings].w = texels[0].w;
+    EXPECT_FALSE(hasSoundTrees(texels)) << "it leads to another tree's block";
 }
 
 TEST(CheckGuideTest, NoTexelMayBeMissing)

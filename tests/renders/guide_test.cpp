@@ -159,8 +159,8 @@ TEST(GuideRenderTest, HasTheSameMeanInFogBehindADoor)
 {
     Scene scene = doorAjar();
     addFog(scene, {2.2F, 1.5F, 2.0F}, 1.45F, 0.5F, 0.0F);
-    EXPECT_TRUE(
-        expectTheSameMean("fog behind a door", flattened(scene), scene.cameras.front(), squareSettings(kSide, 1024)).guide->scatterings);
+    const Films films = expectTheSameMean("fog behind a door", flattened(scene), scene.cameras.front(), squareSettings(kSide, 1024));
+    EXPECT_TRUE(guideScatterings(films.guide->texels));
 }
 
 // Light comes from everywhere, and a guide would add its noise to the phase function, which has none.
@@ -170,7 +170,7 @@ TEST(GuideRenderTest, LeavesScatteringsOfADenseBallAlone)
     b.environment(glm::vec3(1.0F)).perspective({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F}, 0.6F);
     Scene scene = b.scene();
     addFog(scene, glm::vec3(0.0F), 1.0F, 30.0F, 0.3F);
-    EXPECT_FALSE(learnFor(scene, squareSettings(kSide, 64))->scatterings);
+    EXPECT_FALSE(guideScatterings(learnFor(scene, squareSettings(kSide, 64))->texels));
 }
 
 // Mirror, glass, a punctual light and an environment, so that every path through the kernels runs.
@@ -238,7 +238,7 @@ TEST(GuideRenderTest, DependsOnNoQueueInFog)
     const FlatCamera camera = placeInMedia(flattenCamera(scene.cameras.front(), 1.0F, {}), flat);
     RenderSettings settings = squareSettings(kSide, 64);
     const std::shared_ptr<const Guide> guide = learnGuide(testDevice(), flat, camera, settings).guide;
-    EXPECT_TRUE(guide->scatterings);
+    EXPECT_TRUE(guideScatterings(guide->texels));
     for (const std::uint32_t capacity : {1024U, 5000U}) {
         settings.pathCapacity = capacity;
         EXPECT_EQ(learnGuide(testDevice(), flat, camera, settings).guide->digest, guide->digest);
