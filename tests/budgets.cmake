@@ -214,6 +214,7 @@ set(onlyInCi
     PythonRobotCameraTest
     PythonUseTest
     PythonWheelTest
+    GalleryTest
 )
 # Of the families above.
 set(byDefault
