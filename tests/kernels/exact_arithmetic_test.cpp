@@ -27,7 +27,7 @@ struct Pair {
 std::vector<Pair> compute(Device& device, const std::vector<Pair>& pairs)
 {
     const KernelLayout layout(device, {{kBindProbed, BufferKind::Storage}}, 0);
-    const Kernel kernel(layout, test_kernels::exact_arithmetic_test, {{kSpecWorkgroup, 64}});
+    const Kernel kernel(layout, newest(test_kernels::exact_arithmetic_test), {{kSpecWorkgroup, 64}});
     Buffer buffer(device, "numbers", BufferKind::Storage, pairs.size() * sizeof(Pair));
     upload(buffer, std::span<const Pair>(pairs));
     const Bindings bindings(layout, {{kBindProbed, &buffer}});

@@ -9,7 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 
 namespace glim {
 namespace {
@@ -67,10 +70,27 @@ const Kernel& compiled(const EmbeddedShader& shader, const Specialization& speci
 {
     static const KernelLayout layout = makeLayout();
     static std::map<std::pair<std::string, Specialization>, Kernel> kernels;
-    return kernels.try_emplace({shader.name, specialization}, layout, shader, specialization).first->second;
+    return kernels.try_emplace({shader.name, specialization}, layout, newest(shader), specialization).first->second;
 }
 
 }  // namespace
+
+EmbeddedShader newest(const EmbeddedShader& shader)
+{
+    const char* folder = std::getenv("GLIM_TEST_KERNELS");
+    if (folder == nullptr) {
+        return shader;
+    }
+    static std::map<std::string, std::vector<std::uint32_t>> kept;
+    std::vector<std::uint32_t>& words = kept[shader.name];
+    if (words.empty()) {
+        std::ifstream file(std::filesystem::path(folder) / (shader.name + std::string(".spv")), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        words.resize(bytes.size() / sizeof(std::uint32_t));
+        std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
+    }
+    return words.empty() ? shader : EmbeddedShader{shader.name, words.data(), words.data() + words.size()};
+}
 
 void KernelTest::run()
 {

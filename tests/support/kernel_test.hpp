@@ -11,6 +11,9 @@
 
 namespace glim {
 
+// The kernel as tools/test --watch has just compiled it, which saves linking the program; without that, as it is part of the program.
+EmbeddedShader newest(const EmbeddedShader& shader);
+
 class KernelTest {
 public:
     explicit KernelTest(const EmbeddedShader& shader)
