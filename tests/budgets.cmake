@@ -204,6 +204,7 @@ set(onlyInCi
     FarmFailuresTest
     FarmSlurmTest
     GpuCheckTest
+    LaboratoryTest
     LeanKernelsTest
     PythonAddedTest
     PythonBitsTest
