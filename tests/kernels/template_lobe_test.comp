@@ -7,7 +7,7 @@
 #include "template_lobe.glsl"
 
 // The sphere in cells of equal solid angle: bands of z, and sectors of the azimuth.
-const uint kBands = 64u, kSectors = 64u, kLobeCells = kBands * kSectors;
+const uint kBands = 32u, kSectors = 32u, kLobeCells = kBands * kSectors;
 // Gauss and Legendre's, along each side of a cell.
 const float kNodes[4] = float[4](0.0694318442, 0.3300094782, 0.6699905218, 0.9305681558);
 const float kWeights[4] = float[4](0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226);

@@ -13,7 +13,7 @@
 namespace glim::template_lobe_test {
 
 // As in the kernel.
-constexpr std::size_t kBands = 64, kSectors = 64, kCells = kBands * kSectors;
+constexpr std::size_t kBands = 32, kSectors = 32, kCells = kBands * kSectors;
 constexpr uint kSamples = 1 << 16;
 constexpr double kQuadrature = 1e-4;  // the error of the kernel's integrals
 
