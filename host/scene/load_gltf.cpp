@@ -72,16 +72,14 @@ std::string describeAnimation(const std::vector<Animation>& animations, std::siz
     return std::to_string(index) + " (" + (name.empty() ? "" : inQuotes(name) + ", ") + toText(animations[index].duration) + " s)";
 }
 
-std::size_t findAnimation(const GltfFile& file, const std::vector<Animation>& animations, const std::string& choice)
+std::size_t requireAnimation(const GltfFile& file, const std::vector<Animation>& animations, const std::string& choice)
 {
+    if (const std::optional<std::size_t> found = findAnimation(animations, choice)) {
+        return *found;
+    }
     std::string known;
-    for (std::size_t i = 0; i < animations.size(); ++i) {
-        if (choice.empty() || animations[i].name == choice || std::to_string(i) == choice) {
-            return i;
-        }
-        if (i < kMaxListed) {
-            known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
-        }
+    for (std::size_t i = 0; i < std::min(animations.size(), kMaxListed); ++i) {
+        known += (known.empty() ? "" : ", ") + describeAnimation(animations, i);
     }
     const MessagePart expected = part::expected(known.empty() ? "no --at and no --frames, since it has none"
                                                               : "one of " + known + moreThanListed(animations.size()));
@@ -96,7 +94,7 @@ void chooseTime(GltfFile& file, const LoadOptions& options, std::optional<double
                 Warnings& warnings)
 {
     if (seconds) {
-        animateGltf(file, findAnimation(file, animations, options.animation), *seconds, warnings);
+        animateGltf(file, requireAnimation(file, animations, options.animation), *seconds, warnings);
     } else if (!animations.empty()) {
         warnings.add(
             {MessageId::RestPose,
@@ -312,6 +310,8 @@ public:
         posed_ = false;
     }
 
+    void setAnimation(const std::string& animation) { options_.animation = animation; }
+
     // Without the lights and cameras that the options give it.
     // `blurred`: with motions while the options' shutter is open.
     Scene read(std::optional<double> seconds, bool blurred, Warnings& warnings);
@@ -395,7 +395,7 @@ Scene FilePart::read(std::optional<double> seconds, bool blurred, Warnings& warn
     readLightsAndCameras(file_, nodes, scene, warnings);
     if (blurred && seconds && options_.shutter) {
         scene.shutter = options_.shutter;
-        readMotion(file_, options_, findAnimation(file_, animations_, options_.animation), *seconds, scene, warnings);
+        readMotion(file_, options_, requireAnimation(file_, animations_, options_.animation), *seconds, scene, warnings);
     }
     return scene;
 }
@@ -667,6 +667,14 @@ void SceneFile::edit(const std::vector<Edit>& edits)
     options_.edits = edits;
 }
 
+void SceneFile::setAnimation(const std::string& animation)
+{
+    options_.animation = animation;
+    if (contents_) {
+        contents_->main.setAnimation(animation);
+    }
+}
+
 std::optional<std::string> SceneFile::pointerToNode(std::uint32_t node) const
 {
     const auto [part, index] = Contents::placeOf(contents_->firstNodes, node);
@@ -698,6 +706,16 @@ glm::dvec3 SceneFile::translationOf(std::uint32_t node) const
     const std::vector<double>& numbers = found.matrix.empty() ? found.translation : found.matrix;
     const std::size_t first = found.matrix.empty() ? 0 : 12;
     return numbers.empty() ? glm::dvec3(0.0) : glm::dvec3(numbers[first], numbers[first + 1], numbers[first + 2]);
+}
+
+std::optional<std::size_t> findAnimation(const std::vector<Animation>& animations, const std::string& choice)
+{
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+        if (choice.empty() || animations[i].name == choice || std::to_string(i) == choice) {
+            return i;
+        }
+    }
+    return std::nullopt;
 }
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) { return SceneFile(path, options).sceneAt(options.at); }

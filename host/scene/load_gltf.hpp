@@ -94,6 +94,8 @@ public:
     // Edits in place of those of the options. Buffers, images and maps stay, and meshes that no edit bends. A pointer begins with the name
     // of an added file and a # where it is one of that file. Throws InputError, and then nothing is changed.
     void edit(const std::vector<Edit>& edits);
+    // Another animation in place of that of the options: its name or index.
+    void setAnimation(const std::string& animation);
     const std::filesystem::path& path() const { return path_; }
     const std::vector<Edit>& edits() const { return options_.edits; }
 
@@ -121,6 +123,9 @@ private:
     LoadOptions options_;
     std::unique_ptr<Contents> contents_;  // null before the first scene
 };
+
+// The index of the one that a name or an index means, or of the first if `choice` is empty; nothing if there is none.
+std::optional<std::size_t> findAnimation(const std::vector<Animation>& animations, const std::string& choice);
 
 // The scene at options.at.
 Scene loadGltf(const std::filesystem::path& file, const LoadOptions& options = {});
