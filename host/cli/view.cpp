@@ -24,8 +24,8 @@ void addView(CommandLine& line)
         "Mouse: drag moves the picture, the wheel zooms, the panel shows the pixel under the mouse, a click prints\n"
         "all its layers.\n"
         "Keys: V next layer, B shows A, B or A - B in turn, + - exposure, T next tone, F fits the window, 1 shows the\n"
-        "actual size, L prints the lights as options of glim merge, H shows the panel, a list of keys, or neither, Esc\n"
-        "quits.\n"
+        "actual size, L prints the lights as options of glim merge, H shows the panel, a list of keys, or neither, F11\n"
+        "fills the screen, Esc quits.\n"
         "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.\n"
         "host/cli/README.md says how each layer is shown.");
     command.onRun([options] {

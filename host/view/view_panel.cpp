@@ -21,6 +21,7 @@ constexpr HelpLine kHelp[] = {
     {"L", "print the lights, for glim merge"},
     {"click", "print the pixel's layers"},
     {"H", "controls, these keys, nothing"},
+    {"F11", "full screen, or the window again"},
     {"Esc", "quit"},
 };
 

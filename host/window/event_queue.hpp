@@ -25,7 +25,7 @@ struct Event {
 
 inline constexpr int kLeftButton = 0, kRightButton = 1, kMiddleButton = 2;
 
-inline constexpr char kEscape = 27;
+inline constexpr char kEscape = 27, kFullScreen = 11;
 
 class EventQueue {
 public:

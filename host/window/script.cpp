@@ -45,8 +45,8 @@ public:
     char key()
     {
         const std::string name = word();
-        if (name == "space" || name == "escape") {
-            return name == "space" ? ' ' : kEscape;
+        if (name == "space" || name == "escape" || name == "F11") {
+            return name == "space" ? ' ' : name == "escape" ? kEscape : kFullScreen;
         }
         expect(name.size() == 1 && (std::isalnum(static_cast<unsigned char>(name[0])) || name[0] == '+' || name[0] == '-'));
         return good_ ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))) : '\0';

@@ -23,7 +23,7 @@ struct ScriptStep {
 };
 
 // Each line is one step: its delay, then one of
-//   key K | press K | release K      K: a letter, a digit, + or -, space or escape
+//   key K | press K | release K      K: a letter, a digit, + or -, space, escape or F11
 //   drag left|middle X,Y X,Y         pixels
 //   scroll N | click X,Y | resize WxH | iconify | restore
 //   samples N                        waits until all pixels have N samples, or until sampling has ended

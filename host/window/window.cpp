@@ -46,6 +46,9 @@ char getName(int key, int scancode)
     if (key == GLFW_KEY_ESCAPE) {
         return kEscape;
     }
+    if (key == GLFW_KEY_F11) {
+        return kFullScreen;
+    }
     const char* name = glfwGetKeyName(key, scancode);
     if (name != nullptr && (name[0] == '+' || name[0] == '-') && name[1] == '\0') {
         return name[0];
@@ -171,8 +174,26 @@ void Window::push(Event event)
 
 void Window::onKey(char key, int action)
 {
-    if (key != '\0' && action != GLFW_REPEAT) {
+    if (key == kFullScreen) {
+        if (action == GLFW_PRESS) {
+            toggleFullScreen();
+        }
+    } else if (key != '\0' && action != GLFW_REPEAT) {
         push({.kind = action == GLFW_PRESS ? Event::Kind::KeyDown : Event::Kind::KeyUp, .key = key});
+    }
+}
+
+void Window::toggleFullScreen()
+{
+    if (windowed_) {
+        const glm::ivec4 place = *std::exchange(windowed_, std::nullopt);
+        glfwSetWindowMonitor(window_, nullptr, place.x, place.y, place.z, place.w, GLFW_DONT_CARE);
+    } else if (GLFWmonitor* const screen = glfwGetPrimaryMonitor()) {
+        glm::ivec4& place = windowed_.emplace();
+        glfwGetWindowPos(window_, &place.x, &place.y);
+        glfwGetWindowSize(window_, &place.z, &place.w);
+        const GLFWvidmode* const mode = glfwGetVideoMode(screen);
+        glfwSetWindowMonitor(window_, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
     }
 }
 

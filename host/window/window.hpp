@@ -49,6 +49,7 @@ private:
     };
 
     void onKey(char key, int action);
+    void toggleFullScreen();
     void onButton(int button, int action, bool shift);
     void onCursor(const glm::dvec2& position);
     void onScroll(double notches);
@@ -72,6 +73,7 @@ private:
     Orders orders_;
 
     glm::dvec2 cursor_{0.0};
+    std::optional<glm::ivec4> windowed_;  // position and size to return to from the full screen
 };
 
 }  // namespace glim
