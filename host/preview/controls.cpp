@@ -83,10 +83,10 @@ Pose fly(const Pose& pose, const glm::dvec3& offset)
 Pose frame(const Pose& pose, const BoundingSphere& bounds, const Camera& camera, double aspectRatio)
 {
     const double narrower = std::min(1.0, aspectRatio);
-    const double slope = std::tan(0.5 * static_cast<double>(camera.yfov)) * narrower;
+    const double slope = std::tan(0.5 * static_cast<double>(camera.yfov)) / pose.zoom * narrower;
     const bool orthographic = camera.kind == Camera::Kind::Orthographic;
     Pose moved = pose;
-    moved.zoom = orthographic ? std::abs(static_cast<double>(camera.halfHeight)) * narrower / bounds.radius : 1.0;
+    moved.zoom = orthographic ? std::abs(static_cast<double>(camera.halfHeight)) * narrower / bounds.radius : pose.zoom;
     const double distance = orthographic ? 2.0 * bounds.radius : bounds.radius / std::sin(std::atan(slope));
     moved.at = bounds.center;
     moved.from = bounds.center - distance * computeAxes(pose).forward;

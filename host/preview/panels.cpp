@@ -14,10 +14,12 @@
 namespace glim {
 namespace {
 
-constexpr int kLongestList = 5;      // cameras, before the list scrolls
-constexpr float kMapCell = 0.3F;     // in heights of the font: the side of a cell of the guide's map, before it is rounded to pixels
-constexpr double kBelow = 0.35;      // how bright directions below the surface are
-constexpr float kPlotHeight = 5.0F;  // in heights of the font
+constexpr int kLongestList = 5;   // cameras, before the list scrolls
+constexpr float kMapCell = 0.3F;  // in heights of the font: the side of a cell of the guide's map, before it is rounded to pixels
+constexpr double kBelow = 0.35;   // how bright directions below the surface are
+constexpr float kSlowest = 0.1F, kFastest = 10.0F;   // seconds of the animation a second
+constexpr double kNarrowest = 1.0, kWidest = 170.0;  // degrees
+constexpr float kPlotHeight = 5.0F;                  // in heights of the font
 
 constexpr HelpLine kHelp[] = {
     {"drag", "orbit"},
@@ -25,20 +27,20 @@ constexpr HelpLine kHelp[] = {
     {"wheel", "nearer, farther"},
     {"W A S D Q E", "fly: forward, left, back, right, down, up"},
     {"F", "frame the scene"},
-    {"R", "reset to the file's camera"},
-    {"1-9", "the file's cameras"},
+    {"R, 1-9", "the file's camera, its others"},
     {"+ -", "exposure"},
-    {"T", "next tone"},
-    {"V", "next layer"},
+    {"T, V", "next tone, next layer"},
     {"N", "denoise what is left alone, or not"},
     {"G", "what the guide knows under the mouse (--guiding on)"},
     {"click", "print what is there, and change it in the panel"},
     {"Z", "undo the last change"},
-    {"Space", "pause"},
+    {"O", "focus on the next click"},
+    {"K", "play the animation, or pause it"},
+    {"Space", "pause sampling"},
     {"P", "write PNG and EXR"},
     {"C", "print camera and changes as options"},
     {"H", "controls, these keys, nothing"},
-    {"Esc", "quit"},
+    {"F11, Esc", "full screen or not, quit"},
 };
 
 const char* getName(Aov aov)
@@ -122,6 +124,51 @@ void drawGuide(const GuideMap& map)
     }
 }
 
+std::string nameOf(const Animation& animation, std::size_t index) { return std::to_string(index) + " " + animation.name; }
+
+TimeChoices changeTime(const std::vector<Animation>& animations, TimeChoices choices)
+{
+    if (animations.size() > 1 && ImGui::BeginCombo("animation", nameOf(animations[choices.animation], choices.animation).c_str())) {
+        for (std::size_t i = 0; i < animations.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));  // a name may have ImGui's signs for an id
+            if (ImGui::Selectable(nameOf(animations[i], i).c_str(), i == choices.animation)) {
+                choices.animation = i;
+            }
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    const double begin = 0.0, end = animations[choices.animation].duration;
+    double seconds = choices.seconds.value_or(begin);
+    const char* const pattern = choices.seconds ? "%.3f s" : "rest pose";
+    if (ImGui::SliderScalar("time", ImGuiDataType_Double, &seconds, &begin, &end, pattern, ImGuiSliderFlags_NoInput)) {
+        choices.seconds = seconds;
+    }
+    ImGui::SliderFloat("speed", &choices.speed, kSlowest, kFastest, "%.2f x", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::Button(choices.plays ? "pause###play" : "play###play")) {
+        choices.plays = !choices.plays;
+    }
+    ImGui::SameLine();
+    ImGui::Checkbox("loop", &choices.loops);
+    ImGui::SameLine();
+    if (ImGui::Button("rest pose")) {
+        choices.seconds.reset();
+    }
+    return choices;
+}
+
+LensChoices changeLens(float widest, LensChoices choices)
+{
+    ImGui::SliderFloat("aperture", &choices.radius, 0.0F, widest, choices.radius > 0.0F ? "radius %.3g m" : "pinhole",
+                       ImGuiSliderFlags_NoInput);
+    if (choices.radius > 0.0F) {
+        ImGui::DragFloat("focus", &choices.focalDistance, 0.01F * choices.focalDistance, LensControl::kNearestFocus,
+                         LensControl::kFarthestFocus, "%.4g m", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput);
+    }
+    ImGui::Checkbox("focus on the next click", &choices.focusesByClick);
+    return choices;
+}
+
 SurfaceChoices changeSurface(const PanelFigures& figures, SurfaceChoices choices)
 {
     ImGui::TextUnformatted(figures.surface.c_str());
@@ -157,6 +204,17 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
         choices.tone = toneCombo(choices.tone);
         choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return getName(layer); });
         choices.camera = chooseCamera(figures.cameras, choices.camera);
+        if (choices.fieldOfView) {
+            ImGui::SliderScalar("fov", ImGuiDataType_Double, &*choices.fieldOfView, &kNarrowest, &kWidest, "%.1f deg",
+                                ImGuiSliderFlags_NoInput);
+        }
+        if (figures.widestAperture) {
+            choices.lens = changeLens(*figures.widestAperture, choices.lens);
+        }
+        if (!figures.animations.empty()) {
+            ImGui::Separator();
+            choices.time = changeTime(figures.animations, choices.time);
+        }
         if (!figures.surface.empty()) {
             ImGui::Separator();
             choices.surface = changeSurface(figures, choices.surface);

@@ -1,7 +1,9 @@
 // The panels over the preview's picture.
 #pragma once
 
+#include "host/preview/lens_control.hpp"
 #include "host/preview/surface_edits.hpp"
+#include "host/preview/timeline.hpp"
 #include "host/render/aov.hpp"
 #include "host/render/guide_map.hpp"
 #include "host/window/notice.hpp"
@@ -32,6 +34,8 @@ struct PanelFigures {
     std::string device;
     std::vector<Aov> layers;
     std::vector<std::string> cameras;
+    std::optional<float> widestAperture;        // its radius, metres; absent: the camera has no lens
+    std::vector<Animation> animations;          // none: there is no time to choose
     std::string surface;                        // what was clicked, with its material; empty: nothing
     bool hasMaterial = false, hasNode = false;  // that the user may change
     std::size_t edits = 0;
@@ -44,6 +48,9 @@ struct PanelChoices {
     Tone tone = Tone::None;
     Aov layer = Aov::Radiance;
     std::size_t camera = 0;
+    std::optional<double> fieldOfView;  // vertical, degrees; absent: there is none to choose
+    LensChoices lens;
+    TimeChoices time;
     bool denoises = true;
     bool showsGuide = false;
     SurfaceChoices surface;

@@ -27,8 +27,9 @@ std::optional<Pick> Picker::pick(Refiner& refiner, const PreparedScene& prepared
         return std::nullopt;
     }
     const double distance = static_cast<double>(hit.t);
-    return Pick{prepared.scene.origin + glm::dvec3(ray.origin) + distance * glm::dvec3(ray.direction), distance,
-                describePrimitive(prepared, hit.primitiveRef)};
+    const glm::dvec3 direction(ray.direction);
+    return Pick{prepared.scene.origin + glm::dvec3(ray.origin) + distance * direction, distance,
+                distance * glm::dot(direction, glm::dvec3(refiner.camera().forward)), describePrimitive(prepared, hit.primitiveRef)};
 }
 
 std::string describeSurface(const std::optional<Pick>& found)

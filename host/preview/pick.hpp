@@ -15,6 +15,7 @@ namespace glim {
 struct Pick {
     glm::dvec3 position;  // world coordinates
     double distance;      // metres from the ray's origin
+    double depth;         // the same along the camera's axis
     PrimitiveDescription primitive;
 };
 

@@ -20,6 +20,8 @@ public:
     // Whether kernels must be compiled for the scene, which has changed, or for this camera.
     bool needsKernels() const { return !renderer_.resources().hasKernels(prepared_.flat, camera_); }
     bool needsKernels(const Camera& camera, const glm::uvec2& size) const;
+    // Of pictures that start from now on.
+    void setLens(const Lens& lens) { lens_ = lens; }
     // To be called when the scene has changed. Kernels and buffers that serve it stay; show() follows.
     void renew();
     // Starts the picture of this camera in this size. It is coarse at first, since the camera may move on.

@@ -1,6 +1,7 @@
 // Loads the scene in a thread of its own, and loads it again whenever one of its files changes.
 #pragma once
 
+#include "host/preview/moment.hpp"
 #include "host/render/prepare_scene.hpp"
 
 #include <atomic>
@@ -13,10 +14,12 @@ namespace glim {
 // A scene, and its file to change it by.
 struct LoadedScene {
     LoadedScene(const std::filesystem::path& path, const LoadOptions& options)
-        : file(path, options)
+        : file(path, options),
+          moment{options.animation, options.at}
     {}
 
     SceneFile file;
+    Moment moment;  // of the scene
     PreparedScene prepared;
 };
 

@@ -1,5 +1,7 @@
 #include "host/preview/scene_pictures.hpp"
 
+#include "host/error.hpp"
+
 #include <utility>
 
 namespace glim {
@@ -13,9 +15,45 @@ void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
     loaded_ = std::move(loaded);
 }
 
-void ScenePictures::edit(const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split)
+void ScenePictures::edit(const std::vector<Edit>& edits, SplitRule split)
 {
-    editScene(loaded_->prepared, loaded_->file, edits, seconds, split);
+    editScene(loaded_->prepared, loaded_->file, edits, loaded_->moment.seconds, split);
+    renew();
+}
+
+void ScenePictures::pose(const Moment& moment, SplitRule split)
+{
+    LoadedScene& loaded = *loaded_;
+    const auto update = [&](const Moment& at) {
+        loaded.file.setAnimation(at.animation);
+        updateScene(loaded.prepared, loaded.file, at.seconds, split);
+    };
+    try {
+        update(moment);
+    } catch (const InputError&) {
+        loaded.file.setAnimation(loaded.moment.animation);
+        if (loaded.prepared.bvh.nodes.empty()) {  // there was too little memory
+            update(loaded.moment);
+        }
+        throw;
+    }
+    loaded.moment = moment;
+    renew();
+}
+
+void ScenePictures::setLens(const Lens& lens)
+{
+    lens_ = lens;
+    for (const auto& refiner : {&light_, &steps_, &guided_}) {
+        if (*refiner) {
+            (*refiner)->setLens(lens);
+        }
+    }
+}
+
+// After the scene has changed.
+void ScenePictures::renew()
+{
     leaveOthers();
     if (light_->needsKernels()) {
         beforeCompiling_();

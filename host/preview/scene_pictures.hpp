@@ -13,8 +13,8 @@ namespace glim {
 
 class ScenePictures {
 public:
-    // `settings` and `lens` of all scenes; the size does not matter. Calls `beforeCompiling` whenever kernels are to be compiled, which
-    // takes a while.
+    // `settings` of all scenes, and the first `lens`; the size does not matter. Calls `beforeCompiling` whenever kernels are to be
+    // compiled, which takes a while.
     ScenePictures(Device& device, const RenderSettings& settings, const Lens& lens, std::function<void()> beforeCompiling)
         : device_(device),
           settings_(settings),
@@ -26,7 +26,13 @@ public:
     void enter(std::unique_ptr<LoadedScene> loaded);
     // The scene with these edits. Kernels and what the edits do not touch stay. If they are refused, throws InputError and changes nothing.
     // show() follows.
-    void edit(const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split);
+    void edit(const std::vector<Edit>& edits, SplitRule split);
+    // The same with the scene at another time.
+    void pose(const Moment& moment, SplitRule split);
+    const Moment& moment() const { return loaded_->moment; }
+    // Of pictures that show() starts from now on.
+    void setLens(const Lens& lens);
+    const Lens& lens() const { return lens_; }
     bool isEmpty() const { return light_ == nullptr; }
     const PreparedScene& scene() const { return loaded_->prepared; }
     const SceneFile& file() const { return loaded_->file; }
@@ -47,6 +53,7 @@ public:
 
 private:
     void leaveOthers();
+    void renew();
 
     Device& device_;
     RenderSettings settings_;

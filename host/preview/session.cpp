@@ -29,22 +29,23 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       events_(events),
       options_(options),
       screen_(window, options.device),
-      display_(screen_.device()),
+      drawer_(screen_.device()),
       loader_(options.scene, options.load, options.split),
       pictures_(screen_.device(), options.settings, options.lens, [this] { announceCompiling(); }),
+      lens_(options.lens),
+      timeline_({options.load.animation, options.load.at}),
       denoiser_(screen_.device(), [this] { announceCompiling(); }),
       meter_(options.look),
       guideInset_(screen_.device())
 {
-    display_.resize(std::max(1U, window.pictureSize().x), std::max(1U, window.pictureSize().y));
+    drawer_.resize(glm::max(glm::uvec2(1), window.pictureSize()));
 }
 
 void Session::run()
 {
     while (!closing_ && (!options_.frames || frames_ < *options_.frames)) {
         const bool isWorking = !pictures_.isEmpty() && work();
-        const bool isFlying = viewpoint_ && viewpoint_->isFlying();
-        takeEvents(isWorking || isFlying || pacer_.isChanged() || !inbox_.empty() ? 0.0 : kIdleSeconds);
+        takeEvents(isWorking || movesItself() || pacer_.isChanged() || !inbox_.empty() ? 0.0 : kIdleSeconds);
         takeScene();
         if (const auto report = writer_.takeReport(false)) {
             tell(*report);
@@ -52,13 +53,12 @@ void Session::run()
         if (messages_.notice.expire()) {
             pacer_.change();
         }
-        if (viewpoint_ && pacer_.isShown()) {
-            viewpoint_->fly(Clock::now());  // one step per picture
-        }
-        followCamera();
+        step();
+        follow();
         if (isPresentDue()) {
             present();
-            followCamera();
+            step();
+            follow();
         }
         if (later_ && !hasMoved() && !pictures_.shown().isFresh()) {
             std::exchange(later_, nullptr)();
@@ -122,8 +122,8 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
 {
     const PreparedScene& prepared = loaded->prepared;
     RenderSettings settings = options_.settings;
-    settings.width = display_.width();
-    settings.height = display_.height();
+    settings.width = size().x;
+    settings.height = size().y;
     checkMemory(prepared, settings, screen_.device().description());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared.scene, options_.camera);
@@ -146,6 +146,7 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     pictures_.enter(std::move(loaded));
     surface_.reset();
     viewpoint_->enter(pictures_.scene().scene);
+    timeline_.enter(pictures_.scene().scene.animations);
     if (!isFirst) {
         tell(options_.scene.string() + " has changed and is loaded again");
     }
@@ -158,7 +159,7 @@ void Session::edit(const std::vector<Edit>& edits)
     const std::vector<Edit> all = joinEdits(options_.load.edits, edits);
     learner_.end();
     try {
-        pictures_.edit(all, options_.load.at, options_.split);
+        pictures_.edit(all, options_.split);
     } catch (const InputError& error) {
         tell(error.what());
         return;
@@ -169,30 +170,71 @@ void Session::edit(const std::vector<Edit>& edits)
     show();
 }
 
+bool Session::hasLens() const
+{
+    const Lens wanted = lens_.lens();
+    return pictures_.lens().radius == wanted.radius && pictures_.lens().focalDistance == wanted.focalDistance;
+}
+
+bool Session::canFocus() const
+{
+    const Projection::Model model = options_.projection.model;
+    return model != Projection::Model::Fisheye && model != Projection::Model::Equirectangular;
+}
+
 void Session::resize()
 {
     const glm::uvec2 wanted = window_.pictureSize();
     if (wanted.x == 0 || wanted.y == 0 || wanted == size()) {
         return;
     }
-    display_.resize(wanted.x, wanted.y);
+    drawer_.resize(wanted);
     if (!pictures_.isEmpty()) {
         show();
     }
 }
 
+// One step for each picture.
+void Session::step()
+{
+    if (viewpoint_ && pacer_.isShown()) {
+        const Clock::time_point now = Clock::now();
+        viewpoint_->fly(now);
+        timeline_.advance(now);
+    }
+}
+
 // Begins the next picture only after the last one was shown. Otherwise a user who moves without rest would see none.
-void Session::followCamera()
+void Session::follow()
 {
     if (hasMoved() && pacer_.isShown()) {
         show();
     }
 }
 
-// Begins a new picture with the present camera.
+// Poses the scene at the present time. Where the file refuses, the time stays as it was.
+void Session::followTime()
+{
+    if (timeline_.moment() == pictures_.moment()) {
+        return;
+    }
+    learner_.end();
+    try {
+        pictures_.pose(timeline_.moment(), options_.split);
+    } catch (const InputError& error) {
+        tell(error.what());
+        timeline_.rest(pictures_.moment());
+        return;
+    }
+    viewpoint_->enter(pictures_.scene().scene);
+}
+
+// Begins a new picture with the present camera, lens and time.
 void Session::show()
 {
     learner_.cancel();
+    followTime();
+    pictures_.setLens(lens_.lens());
     pictures_.show(viewpoint_->camera(size()), size());
     begin();
 }
@@ -250,7 +292,7 @@ bool Session::isPresentDue() const
     if (nothingNew || (isThere && pictures_.shown().isFresh())) {
         return false;
     }
-    return pacer_.isDue(Clock::now(), isThere && pictures_.shown().scale() > 1);
+    return movesItself() || pacer_.isDue(Clock::now(), isThere && pictures_.shown().scale() > 1);
 }
 
 void Session::present()
@@ -259,9 +301,9 @@ void Session::present()
     if (!pictures_.isEmpty()) {
         meter_.measure(pictures_.shown(), pictures_.layer(), isInputWaiting());
         if (const IdleDenoiser::Result* denoised = shownDenoised()) {
-            drawDenoised(*denoised);
+            drawer_.draw(*denoised, meter_.look());
         } else {
-            display_.draw(pictures_.shown().renderer(), pictures_.layer(), meter_.range(), meter_.look());
+            drawer_.draw(pictures_.shown().renderer(), pictures_.layer(), meter_.range(), meter_.look());
         }
     }
     if (showsGuide()) {
@@ -270,7 +312,7 @@ void Session::present()
     }
     buildPanels();
     buildPanels();  // ImGui lays out a frame by the sizes of the one before
-    const bool isShown = screen_.present(shownPicture());
+    const bool isShown = screen_.present(drawer_.picture());
     pacer_.spend(start, Clock::now());
     if (isShown) {
         pacer_.show(hasMoved());
@@ -282,30 +324,6 @@ void Session::present()
 const IdleDenoiser::Result* Session::shownDenoised() const
 {
     return denoises_ && !pictures_.isEmpty() && pictures_.layer() == Aov::Radiance ? denoiser_.result() : nullptr;
-}
-
-const StorageImage& Session::shownPicture() const
-{
-    const IdleDenoiser::Result* denoised = shownDenoised();
-    return denoised != nullptr && denoised->version == painted_ ? painter_->picture() : display_.picture();
-}
-
-void Session::drawDenoised(const IdleDenoiser::Result& denoised)
-{
-    if (!painter_) {
-        painter_.emplace(screen_.device());
-    }
-    if (std::exchange(painted_, denoised.version) != denoised.version) {
-        painter_->resize(size());
-        painter_->setValues(denoised.picture.radiance);
-    }
-    ViewPass pass{};
-    pass.right = size().x;
-    pass.bottom = size().y;
-    pass.shownAs = kShownAsColor;
-    pass.scale = static_cast<float>(std::exp2(meter_.look().exposure));
-    pass.tone = static_cast<std::uint32_t>(meter_.look().tone);
-    painter_->draw(pass);
 }
 
 void Session::reportShown()
@@ -375,7 +393,7 @@ void Session::handleMouse(const Event& event)
     if (gesture && gesture->kind == Gesture::Kind::Click) {
         clickAt(gesture->position);
     } else if (gesture && viewpoint_) {
-        viewpoint_->follow(*gesture, static_cast<double>(display_.height()));
+        viewpoint_->follow(*gesture, static_cast<double>(size().y));
     }
 }
 
@@ -402,7 +420,7 @@ void Session::press(char key)
 
 void Session::pressForScene(char key)
 {
-    if (viewpoint_->press(key, static_cast<double>(display_.width()) / static_cast<double>(display_.height()))) {
+    if (viewpoint_->press(key, static_cast<double>(size().x) / static_cast<double>(size().y))) {
         return;
     }
     if (key >= '1' && key <= '9') {
@@ -412,6 +430,7 @@ void Session::pressForScene(char key)
         const auto at = std::find(order.begin(), order.end(), pictures_.layer());
         chooseLayer(at + 1 == order.end() ? order.front() : at[1]);
     } else if (key == 'P') {
+        timeline_.rest(timeline_.moment());
         say("writing the picture");
         if (isWhole()) {
             later_ = [this] { writePictures(); };
@@ -420,6 +439,10 @@ void Session::pressForScene(char key)
         }
     } else if (key == 'C') {
         printCamera();
+    } else if (key == 'K') {
+        play();
+    } else if (key == 'O') {
+        aimFocus();
     } else if (key == 'Z') {
         undo();
     }
@@ -434,6 +457,37 @@ void Session::toggleGuide()
     }
 }
 
+void Session::play()
+{
+    if (timeline_.isEmpty()) {
+        say("The file has no animation.");
+    } else {
+        timeline_.toggle(Clock::now());
+    }
+}
+
+// The next click focuses, or no longer.
+void Session::aimFocus()
+{
+    if (canFocus()) {
+        lens_.setFocusesByClick(!lens_.choices().focusesByClick);
+        say(lens_.choices().focusesByClick ? "A click focuses on what is there." : "");
+    } else {
+        say("A fisheye and 360 degrees have no lens.");
+    }
+}
+
+void Session::focusOn(const std::optional<Pick>& found)
+{
+    if (!found) {
+        say("Nothing is there to focus on.");
+        return;
+    }
+    lens_.setFocusesByClick(false);
+    lens_.focus(found->depth);
+    say("in focus: " + format("%.6g m", found->depth) + (lens_.choices().radius > 0.0F ? "" : "; the aperture is a pinhole still"));
+}
+
 void Session::undo()
 {
     if (edits_.empty()) {
@@ -445,7 +499,7 @@ void Session::undo()
 
 void Session::chooseLayer(Aov layer)
 {
-    if (pictures_.choose(layer, viewpoint_->camera(size()), size(), viewpoint_->hasMoved())) {
+    if (pictures_.choose(layer, viewpoint_->camera(size()), size(), hasMoved())) {
         begin();
     }
     meter_.renew();
@@ -458,105 +512,6 @@ void Session::chooseCamera(std::size_t index)
     }
 }
 
-PanelChoices Session::chosen() const
-{
-    return {meter_.look().exposure,
-            meter_.look().tone,
-            pictures_.layer(),
-            viewpoint_ ? viewpoint_->index() : 0,
-            denoises_,
-            showsGuide_,
-            surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
-}
-
-// Returns what the user wants to be chosen.
-PanelChoices Session::layOutPanels(const PanelChoices& before)
-{
-    PanelChoices wanted = before;
-    screen_.gui().frame(size(), [&] {
-        const bool isThere = !pictures_.isEmpty();
-        const float below = !isThere || panelLevel_ > 0 ? showMessages(messages_.lines()) : 0.0F;
-        if (isThere && panelLevel_ == 1) {
-            wanted = showControls(figures(), before);
-        }
-        if (showsGuide()) {
-            showGuide(guideInset_.map(), guideInset_.why());
-        }
-        if (panelLevel_ == 2) {
-            showHelp(below);
-        }
-    });
-    return wanted;
-}
-
-// The window answers nothing until the kernels are there. So it must say that before, over whatever picture it has.
-void Session::announceCompiling()
-{
-    messages_.stage = "compiling kernels";  // takeScene() ends it
-    window_.setTitle("glim: " + messages_.stage + " for " + options_.scene.filename().string());
-    layOutPanels(chosen());
-    layOutPanels(chosen());
-    screen_.present(shownPicture());
-}
-
-void Session::buildPanels()
-{
-    const PanelChoices before = chosen(), wanted = layOutPanels(before);
-    if (wanted.exposure != before.exposure) {
-        meter_.setExposure(wanted.exposure);
-    }
-    if (wanted.tone != before.tone) {
-        meter_.setTone(wanted.tone);
-    }
-    if (wanted.layer != before.layer) {
-        chooseLayer(wanted.layer);
-    }
-    if (wanted.camera != before.camera) {
-        chooseCamera(wanted.camera);
-    }
-    denoises_ = wanted.denoises;
-    showsGuide_ = wanted.showsGuide;
-    if (wanted.undo) {
-        undo();
-    } else if (surface_ && wanted.surface != before.surface) {
-        std::vector<Edit> edits = edits_;
-        for (const Edit& change : listEdits(*surface_, before.surface, wanted.surface)) {
-            edits = withEdit(std::move(edits), change);
-        }
-        edit(edits);
-    }
-}
-
-PanelFigures Session::figures() const
-{
-    Refiner& picture = pictures_.shown();
-    PanelFigures figures;
-    figures.samples = picture.renderer().plan().sampleCount();
-    figures.seconds = picture.seconds();
-    figures.samplesPerSecond = picture.samplesPerSecond();
-    figures.state = paused_                                    ? "paused"
-                    : learner_.isWorking()                     ? "learning a guide"
-                    : picture.isDone() && picture.scale() == 1 ? "done"
-                    : pictures_.isGuided()                     ? "guided"
-                                                               : "";
-    figures.errors = meter_.errors();
-    figures.canDenoise = options_.settings.halves;
-    figures.denoising = denoises_ ? describe(denoiser_) : std::vector<std::string>{};
-    figures.size = size();
-    figures.scale = picture.scale();
-    figures.device = screen_.device().description().name;
-    figures.layers = pictures_.layers();
-    for (const Camera& camera : viewpoint_->cameras()) {
-        figures.cameras.push_back(camera.name);
-    }
-    figures.surface = surface_ ? surface_->name : "";
-    figures.hasMaterial = surface_ && surface_->materialPointer;
-    figures.hasNode = surface_ && surface_->nodePointer;
-    figures.edits = edits_.size();
-    figures.canGuide = options_.guiding;
-    return figures;
-}
-
 void Session::clickAt(const glm::dvec2& position)
 {
     if (pictures_.isEmpty()) {
@@ -564,6 +519,10 @@ void Session::clickAt(const glm::dvec2& position)
     }
     const glm::uvec2 pixel = pixelAt(position);
     const std::optional<Pick> found = picker_.pick(pictures_.shown(), pictures_.scene(), pixel, size());
+    if (lens_.choices().focusesByClick) {
+        focusOn(found);
+        return;
+    }
     const std::string there = describeSurface(found);
     surface_.reset();
     if (found) {
@@ -577,8 +536,8 @@ void Session::clickAt(const glm::dvec2& position)
 void Session::printCamera()
 {
     const std::string options = "--camera " + std::to_string(viewpoint_->index()) +
-                                cameraOptions(viewpoint_->moved(), options_.field, options_.lens, options_.projection) + " --size " +
-                                std::to_string(display_.width()) + "x" + std::to_string(display_.height()) +
+                                cameraOptions(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection) + " --size " +
+                                std::to_string(size().x) + "x" + std::to_string(size().y) + timeline_.options() +
                                 editOptions(joinEdits(options_.load.edits, edits_));
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
@@ -589,7 +548,7 @@ void Session::writePictures()
     Film film = pictures_.shown().renderer().film();
     film.sceneFile = options_.scene.string();
     film.showsBackground = options_.load.environmentBackground;
-    film.identity.settings += describeCamera(viewpoint_->moved(), options_.field, options_.lens, options_.projection);
+    film.identity.settings += describeCamera(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }

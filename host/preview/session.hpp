@@ -6,16 +6,17 @@
 #include "host/preview/guide_inset.hpp"
 #include "host/preview/guide_learner.hpp"
 #include "host/preview/idle_denoiser.hpp"
+#include "host/preview/lens_control.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
 #include "host/preview/pick.hpp"
+#include "host/preview/picture_drawer.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
 #include "host/preview/scene_loader.hpp"
 #include "host/preview/scene_pictures.hpp"
+#include "host/preview/timeline.hpp"
 #include "host/preview/viewpoint.hpp"
-#include "host/render/display.hpp"
-#include "host/render/painter.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/screen.hpp"
 
@@ -34,12 +35,20 @@ public:
     void printSummary() const;
 
 private:
-    bool hasMoved() const { return viewpoint_ && viewpoint_->hasMoved(); }
+    // Whether the picture under way is not that of the present camera, lens and time.
+    bool hasMoved() const
+    {
+        return !pictures_.isEmpty() && (viewpoint_->hasMoved() || timeline_.moment() != pictures_.moment() || !hasLens());
+    }
+    // Whether the next picture is another one without any input.
+    bool movesItself() const { return timeline_.isPlaying() || (viewpoint_ && viewpoint_->isFlying()); }
+    bool hasLens() const;
+    bool canFocus() const;
     bool isWhole() const { return !hasMoved() && pictures_.shown().sampleCount() > 0; }
     bool isInputWaiting() const { return hasMoved() || !inbox_.empty() || !events_.isEmpty(); }
     bool showsGuide() const { return showsGuide_ && !pictures_.isEmpty() && panelLevel_ < 2; }
     glm::uvec2 pixelAt(const glm::dvec2& position) const { return glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size() - 1U)); }
-    glm::uvec2 size() const { return {display_.width(), display_.height()}; }
+    glm::uvec2 size() const { return drawer_.size(); }
 
     // The loop.
     void takeEvents(double seconds);
@@ -47,15 +56,15 @@ private:
     void enter(std::unique_ptr<LoadedScene> loaded);
     void edit(const std::vector<Edit>& edits);
     void resize();
-    void followCamera();
+    void step();
+    void follow();
+    void followTime();
     void show();
     void begin();
     bool work();
     bool awaitsGuide() const;
     bool learnGuide();
     const IdleDenoiser::Result* shownDenoised() const;
-    const StorageImage& shownPicture() const;
-    void drawDenoised(const IdleDenoiser::Result& denoised);
     bool isPresentDue() const;
     void present();
     void reportShown();
@@ -68,6 +77,9 @@ private:
     void chooseLayer(Aov layer);
     void chooseCamera(std::size_t index);
     void toggleGuide();
+    void play();
+    void aimFocus();
+    void focusOn(const std::optional<Pick>& found);
     void clickAt(const glm::dvec2& position);
     void printCamera();
     void undo();
@@ -86,17 +98,17 @@ private:
     EventQueue& events_;
     const PreviewOptions& options_;
     Screen screen_;
-    Display display_;
+    PictureDrawer drawer_;
     SceneLoader loader_;
     PictureWriter writer_;
 
     ScenePictures pictures_;
     GuideLearner learner_;
     std::optional<Viewpoint> viewpoint_;  // absent until there is a scene
+    LensControl lens_;
+    Timeline timeline_;
     IdleDenoiser denoiser_;
     bool denoises_ = true;
-    std::optional<Painter> painter_;  // of denoised pictures
-    std::uint64_t painted_ = 0;       // the version whose values painter_ has
     FilmMeter meter_;
     Pacer pacer_;
     PanelMessages messages_;

@@ -30,7 +30,7 @@ void Viewpoint::enter(const Scene& scene)
     cameras_ = scene.cameras;
     for (Camera& camera : cameras_) {
         const bool hasAngle = camera.kind == Camera::Kind::Perspective;
-        camera = applyField(camera, {hasAngle ? field_.degrees : std::nullopt, field_.zoom});
+        camera = applyField(camera, {fieldOf(camera).degrees, 1.0});
         if (hasAngle && projection_.intrinsics && projection_.intrinsics->center.y > 0.0) {  // for who frames the scene by it
             camera.yfov = static_cast<float>(2.0 * std::atan(projection_.intrinsics->center.y / projection_.intrinsics->focal.y));
         }
@@ -52,7 +52,38 @@ Camera Viewpoint::camera(const glm::uvec2& size) const
     return applyProjection(camera, projection, size);
 }
 
-Camera Viewpoint::placed() const { return pose_ ? placeCamera(cameras_[index_], *pose_, origin_) : cameras_[index_]; }
+FieldOfView Viewpoint::fieldOf(const Camera& camera) const
+{
+    return {camera.kind == Camera::Kind::Perspective ? field_.degrees : std::nullopt, field_.zoom};
+}
+
+Camera Viewpoint::zoomed() const { return applyField(cameras_[index_], {std::nullopt, field_.zoom}); }
+
+// With both zooms at once, as a render has them.
+Camera Viewpoint::placed() const
+{
+    if (!pose_) {
+        return zoomed();
+    }
+    Pose pose = *pose_;
+    pose.zoom *= field_.zoom;
+    return placeCamera(cameras_[index_], pose, origin_);
+}
+
+std::optional<double> Viewpoint::fieldOfView() const
+{
+    const Camera seen = placed();
+    const bool isChosen = seen.kind == Camera::Kind::Perspective && !projection_.intrinsics &&
+                          projection_.model != Projection::Model::Fisheye && projection_.model != Projection::Model::Equirectangular;
+    return isChosen ? std::optional(glm::degrees(static_cast<double>(seen.yfov))) : std::nullopt;
+}
+
+void Viewpoint::setFieldOfView(double degrees)
+{
+    Pose wanted = pose();
+    wanted.zoom = std::tan(0.5 * static_cast<double>(zoomed().yfov)) / std::tan(0.5 * glm::radians(degrees));
+    move(wanted);
+}
 
 Pose Viewpoint::pose() const
 {
@@ -93,7 +124,7 @@ void Viewpoint::follow(const Gesture& gesture, double height)
 bool Viewpoint::press(char key, double aspectRatio)
 {
     switch (key) {
-    case 'F': move(frame(pose(), bounds_, cameras_[index_], aspectRatio)); return true;
+    case 'F': move(frame(pose(), bounds_, zoomed(), aspectRatio)); return true;
     case 'R': reset(); return true;
     case 'W':
     case 'A':

@@ -35,6 +35,9 @@ public:
     bool choose(std::size_t index);
     void reset();
     void move(const Pose& pose);
+    // The vertical field of view in degrees; nothing of a camera that has none to choose.
+    std::optional<double> fieldOfView() const;
+    void setFieldOfView(double degrees);
     // Moves as the gesture says, in a picture of this height in pixels. A click moves nothing.
     void follow(const Gesture& gesture, double height);
     // Takes the keys that move the camera: F frames the scene, in a picture of this aspect ratio, R resets, and others fly while they are
@@ -51,15 +54,20 @@ public:
     void see() { moved_ = false; }
 
     Pose pose() const;
+    double sceneRadius() const { return bounds_.radius; }
+    // The field that the options give this camera: an orthographic one has no angle.
+    FieldOfView field() const { return fieldOf(cameras_[index_]); }
     std::size_t index() const { return index_; }
     const std::optional<Pose>& moved() const { return pose_; }
     // The camera and its node as glTF.
     std::string describeAsGltf() const;
 
 private:
+    FieldOfView fieldOf(const Camera& camera) const;
+    Camera zoomed() const;
     Camera placed() const;
 
-    std::vector<Camera> cameras_;
+    std::vector<Camera> cameras_;  // without the options' zoom, which is that of the pose once it moves
     glm::dvec3 origin_{0.0};
     BoundingSphere bounds_;
     std::size_t index_, firstIndex_;

@@ -180,13 +180,13 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     enterScene(pictures, {});
     const Film before = makeFilm(pictures);
     EXPECT_EQ(compiled, 1) << "at the start";
-    pictures.edit({edits[1]}, std::nullopt, SplitRule::Sah);
+    pictures.edit({edits[1]}, SplitRule::Sah);
     makeFilm(pictures);
     EXPECT_EQ(compiled, 1) << "the same kernels serve it";
-    pictures.edit({}, std::nullopt, SplitRule::Sah);
-    EXPECT_THROW(pictures.edit({{"/materials/99/alphaCutoff", "1"}}, std::nullopt, SplitRule::Sah), InputError);
+    pictures.edit({}, SplitRule::Sah);
+    EXPECT_THROW(pictures.edit({{"/materials/99/alphaCutoff", "1"}}, SplitRule::Sah), InputError);
     EXPECT_TRUE(sameBits(makeFilm(pictures), before));
-    pictures.edit(edits, std::nullopt, SplitRule::Sah);
+    pictures.edit(edits, SplitRule::Sah);
     EXPECT_EQ(compiled, 2) << "a coat needs others";
     LoadOptions options;
     options.edits = edits;
@@ -194,7 +194,7 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     const Film after = makeFilm(pictures);
     EXPECT_TRUE(sameBits(after, makeFilm(edited)));
     EXPECT_FALSE(sameBits(after, before));
-    pictures.edit({}, std::nullopt, SplitRule::Sah);
+    pictures.edit({}, SplitRule::Sah);
     EXPECT_TRUE(sameBits(makeFilm(pictures), before));
 }
 

@@ -169,8 +169,8 @@ TEST_F(PreviewTest, DigitsAreTheFilesCameras)
 
 TEST_F(PreviewTest, PanelsAndHelpComeAndGo)
 {
-    width = 480;
-    height = 300;
+    width = 640;
+    height = 480;
     panels = true;
     const auto covered = [&](const std::string& keys) {
         const Pixels window = windowAtWriting(screen, "0 samples 1\n" + keys + "0 key P\n", {"--spp", "1"});
@@ -211,10 +211,10 @@ TEST_F(PreviewTest, ControlsOfThePanelsDoWhatTheKeysDo)
 TEST_F(PreviewTest, ThePanelChangesTheSurfaceThatWasClicked)
 {
     width = 640;
-    height = 240;
+    height = 320;
     panels = true;
     const GlimRun session = run(
-        "0 samples 1\n0 click 425,120\n0.2 drag left 20,177 240,177\n0.2 samples 1\n0 key C\n0 key P\n0.2 key Z\n0.2 samples 1\n0 key P\n0 "
+        "0 samples 1\n0 click 460,160\n0.2 drag left 20,246 240,246\n0.2 samples 1\n0 key C\n0 key P\n0.2 key Z\n0.2 samples 1\n0 key P\n0 "
         "close\n",
         {"--spp", "1"});
     const std::size_t option = session.out.find(" --set /materials/");

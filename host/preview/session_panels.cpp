@@ -1,0 +1,132 @@
+// The session's panels: what they show, and what comes of the user's choices there.
+#include "host/preview/session.hpp"
+#include "host/window/widgets.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace glim {
+namespace {
+
+constexpr float kWidestAperture = 0.05F;  // in radii of the scene
+
+}  // namespace
+
+PanelChoices Session::chosen() const
+{
+    return {meter_.look().exposure,
+            meter_.look().tone,
+            pictures_.layer(),
+            viewpoint_ ? viewpoint_->index() : 0,
+            pictures_.isEmpty() ? std::nullopt : viewpoint_->fieldOfView(),
+            lens_.choices(),
+            timeline_.choices(),
+            denoises_,
+            showsGuide_,
+            surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
+}
+
+// Returns what the user wants to be chosen.
+PanelChoices Session::layOutPanels(const PanelChoices& before)
+{
+    PanelChoices wanted = before;
+    screen_.gui().frame(size(), [&] {
+        const bool isThere = !pictures_.isEmpty();
+        const float below = !isThere || panelLevel_ > 0 ? showMessages(messages_.lines()) : 0.0F;
+        if (isThere && panelLevel_ == 1) {
+            wanted = showControls(figures(), before);
+        }
+        if (showsGuide()) {
+            showGuide(guideInset_.map(), guideInset_.why());
+        }
+        if (panelLevel_ == 2) {
+            showHelp(below);
+        }
+    });
+    return wanted;
+}
+
+// The window answers nothing until the kernels are there. So it must say that before, over whatever picture it has.
+void Session::announceCompiling()
+{
+    messages_.stage = "compiling kernels";  // takeScene() ends it
+    window_.setTitle("glim: " + messages_.stage + " for " + options_.scene.filename().string());
+    layOutPanels(chosen());
+    layOutPanels(chosen());
+    screen_.present(drawer_.picture());
+}
+
+void Session::buildPanels()
+{
+    const PanelChoices before = chosen(), wanted = layOutPanels(before);
+    if (wanted.exposure != before.exposure) {
+        meter_.setExposure(wanted.exposure);
+    }
+    if (wanted.tone != before.tone) {
+        meter_.setTone(wanted.tone);
+    }
+    if (wanted.layer != before.layer) {
+        chooseLayer(wanted.layer);
+    }
+    if (wanted.camera != before.camera) {
+        chooseCamera(wanted.camera);
+    }
+    if (wanted.fieldOfView != before.fieldOfView) {
+        viewpoint_->setFieldOfView(*wanted.fieldOfView);
+    }
+    if (wanted.lens != before.lens) {
+        const Pose pose = viewpoint_->pose();
+        lens_.choose(wanted.lens, glm::length(pose.at - pose.from));
+    }
+    if (wanted.time != before.time) {
+        timeline_.choose(wanted.time, Clock::now());
+    }
+    denoises_ = wanted.denoises;
+    showsGuide_ = wanted.showsGuide;
+    if (wanted.undo) {
+        undo();
+    } else if (surface_ && wanted.surface != before.surface) {
+        std::vector<Edit> edits = edits_;
+        for (const Edit& change : listEdits(*surface_, before.surface, wanted.surface)) {
+            edits = withEdit(std::move(edits), change);
+        }
+        edit(edits);
+    }
+}
+
+PanelFigures Session::figures() const
+{
+    Refiner& picture = pictures_.shown();
+    PanelFigures figures;
+    figures.samples = picture.renderer().plan().sampleCount();
+    figures.seconds = picture.seconds();
+    figures.samplesPerSecond = picture.samplesPerSecond();
+    figures.state = paused_                                    ? "paused"
+                    : learner_.isWorking()                     ? "learning a guide"
+                    : picture.isDone() && picture.scale() == 1 ? "done"
+                    : pictures_.isGuided()                     ? "guided"
+                                                               : "";
+    figures.errors = meter_.errors();
+    figures.canDenoise = options_.settings.halves;
+    figures.denoising = denoises_ ? describe(denoiser_) : std::vector<std::string>{};
+    figures.size = size();
+    figures.scale = picture.scale();
+    figures.device = screen_.device().description().name;
+    figures.layers = pictures_.layers();
+    for (const Camera& camera : viewpoint_->cameras()) {
+        figures.cameras.push_back(camera.name);
+    }
+    if (canFocus()) {
+        figures.widestAperture = std::max(kWidestAperture * static_cast<float>(viewpoint_->sceneRadius()), lens_.choices().radius);
+    }
+    figures.animations = timeline_.animations();
+    figures.surface = surface_ ? surface_->name : "";
+    figures.hasMaterial = surface_ && surface_->materialPointer;
+    figures.hasNode = surface_ && surface_->nodePointer;
+    figures.edits = edits_.size();
+    figures.canGuide = options_.guiding;
+    return figures;
+}
+
+}  // namespace glim
