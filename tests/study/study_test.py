@@ -257,7 +257,9 @@ class ScenesTest(unittest.TestCase):
 
 class ArgumentsTest(unittest.TestCase):
     def test_bad_arguments_get_one_sentence(self):
-        for arguments in (["--scenes", "/nonexistent"], ["--out", __file__], ["--quik"], ["scene"], ["--out"]):
+        for arguments in (["--scenes", "/nonexistent"], ["--out", __file__], ["--quik"], ["scene"], ["--out"],
+                          ["--serve", "--quick"], ["--serve", "--out", "x"], ["--port", "8000"], ["--serve", "--port", "80"],
+                          ["--serve", "--port", "65536"], ["--serve", "--port", "x"]):
             errors = io.StringIO()
             with contextlib.redirect_stderr(errors), self.assertRaises(SystemExit) as stopped:
                 parse_arguments(arguments)
@@ -267,6 +269,7 @@ class ArgumentsTest(unittest.TestCase):
     def test_choices(self):
         self.assertIs(parse_arguments(["--quick"]).profile, profiles.QUICK)
         self.assertIs(parse_arguments([]).profile, profiles.FULL)
+        self.assertEqual(parse_arguments([]).out, "study")
 
 
 if __name__ == "__main__":

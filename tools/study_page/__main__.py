@@ -13,11 +13,17 @@ def stop(number, _frame):
 
 def main():
     options = parse_arguments()
-    signal.signal(signal.SIGTERM, stop)
-    # Only now: plots take a while to load, and usage should not need them.
-    from .study import run_study
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+            signal.signal(number, stop)
     try:
-        print(run_study(options, sys.argv[1:]), end="")
+        if options.serve:
+            from .live.server import serve_study
+            serve_study(options)
+        else:
+            # Only now: plots take a while to load, and usage should not need them.
+            from .study import run_study
+            print(run_study(options, sys.argv[1:]), end="")
     except (StudyError, OSError) as error:
         sys.exit("tools/study: %s" % error)
     except KeyboardInterrupt:
