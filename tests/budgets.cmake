@@ -198,6 +198,8 @@ set(onlyInCi
     ToGltfPlyTest
     ToGltfColladaTest
     Blurs/DenoisedErrorTest.*
+    # The study's live page in a browser. By default: its server, without one.
+    StudyBrowserTest
     # Farms of several processes, folders for other machines, SPIR-V's optimizer for each feature,
     # and the module for Python beside the command line. By default: what farms keep in files, and films and parts of scenes in Python.
     FarmTest

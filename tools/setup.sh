@@ -68,6 +68,9 @@ testPackages=(
     "${studyPackages[@]}"
     "${formatPackages[@]}"
 )
+browserPackages=(
+    "chromium                  opens the study's live page in its test"
+)
 
 # asksForHelp ARGUMENT...: for help nothing is installed and nothing is built.
 asksForHelp() {
