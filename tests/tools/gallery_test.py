@@ -42,7 +42,7 @@ class GalleryTest(unittest.TestCase):
             self.assertEqual(sorted(os.listdir(folder)), sorted(["README.md", *(name + ".webp" for name in names)]))
             self.assertTrue(all(is_webp(os.path.join(folder, name + ".webp")) for name in names))
             page = read(os.path.join(folder, "README.md"))
-        self.assertEqual(len(re.findall(r"^64 samples per pixel in \d+ s", page, re.MULTILINE)), 10)
+        self.assertEqual(len(re.findall(r"^64 samples per pixel in \d+ s.* \([1-9]\d* s of CPU time in all\); ", page, re.MULTILINE)), 10)
         self.assertEqual(len(re.findall(r"; RMSE [\d.e+]+ % \[", page)), 10)
         self.assertEqual(len(re.findall(r"after \d+ s of learning", page)), 1)
 
