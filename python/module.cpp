@@ -259,7 +259,16 @@ private:
             warnIfNoLights(session->prepared());
         }
         session->denoiser().open(options);
-        const PictureFrame frame = framePicture(*session, options, [&](const LearningPause&) { return watcher.goesOn(); });
+        PictureFrame frame = framePicture(*session, options);
+        if (options.guiding != GuidingChoice::Off) {
+            const std::optional<LearnedGuide> kept =
+                resumed != nullptr && resumed->checkpoint() ? resumed->checkpoint()->guide : std::optional<LearnedGuide>();
+            if (kept && answers(*kept, options.guiding)) {
+                frame.setGuide(*kept);  // findOther() refuses a film that is not of this picture
+            } else {
+                learnGuide(*session, options, frame, [&](const LearningPause&) { return watcher.goesOn(); });
+            }
+        }
         if (watcher.failure()) {
             keep(std::move(session), std::move(rayKernels));
             return nullptr;
@@ -283,6 +292,9 @@ private:
             return nullptr;
         }
         labelFilm(rendered.film, options, frame);
+        if (rendered.checkpoint) {
+            rendered.checkpoint->guide = frame.guide;
+        }
         warnIfUnknown(rendered);
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));
