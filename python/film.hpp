@@ -23,7 +23,6 @@ public:
 
     const Film& film() const { return film_; }
     StoredFilm stored() const { return {film_, checkpoint_}; }
-    const std::optional<Checkpoint>& checkpoint() const { return checkpoint_; }
     // What the film shows, row 0 at the top.
     const std::vector<PixelMoments>& pixels() const { return film_.splats.empty() ? film_.pixels : shown_; }
 

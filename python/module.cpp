@@ -261,13 +261,7 @@ private:
         session->denoiser().open(options);
         PictureFrame frame = framePicture(*session, options);
         if (options.guiding != GuidingChoice::Off) {
-            const std::optional<LearnedGuide> kept =
-                resumed != nullptr && resumed->checkpoint() ? resumed->checkpoint()->guide : std::optional<LearnedGuide>();
-            if (kept && answers(*kept, options.guiding)) {
-                frame.setGuide(*kept);  // findOther() refuses a film that is not of this picture
-            } else {
-                learnGuide(*session, options, frame, [&](const LearningPause&) { return watcher.goesOn(); });
-            }
+            learnGuide(*session, options, frame, [&](const LearningPause&) { return watcher.goesOn(); });  // or takes the session's
         }
         if (watcher.failure()) {
             keep(std::move(session), std::move(rayKernels));
@@ -292,9 +286,6 @@ private:
             return nullptr;
         }
         labelFilm(rendered.film, options, frame);
-        if (rendered.checkpoint) {
-            rendered.checkpoint->guide = frame.guide;
-        }
         warnIfUnknown(rendered);
         warnOfPicture(rendered.film, renderer.statistics(), options.settings);
         auto film = std::make_shared<PythonFilm>(std::move(rendered.film), std::move(rendered.checkpoint));

@@ -52,7 +52,7 @@ float sampleDeflection(float g, float u)
     return 0.5 * (g + (x + g) * (1.0 + s) / (1.0 + g * x));
 }
 
-// Their density per steradian, by the cosine.
+// Their density per steradian, by the cosine. The square is (1 - abs(g))^2 or more; 1e-8 keeps rounding from making it 0 or negative.
 float pdfOfDeflection(float g, float cosine)
 {
     float square = max(1.0 + g * g - 2.0 * g * cosine, 1e-8);

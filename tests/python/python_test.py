@@ -351,6 +351,7 @@ class UseTest(PythonCase):
             guides.update(word for word in film.settings.split() if word.startswith("guide="))
         self.assertEqual(len(guides), 3)
         self.assertNotIn("guide=", box.render(guiding=False).settings)
+        self.assertEqual(box.render(spp=100).resume(spp=300).digest, load().render(spp=300).digest)
 
     def test_have_ids_and_parts(self):
         def parts_of(step):
