@@ -51,6 +51,8 @@ void addPicture(OptionTable& table, PictureOptions& options, const std::string& 
               [&options](const OptionValue& value) { options.environment = parseEnvironment(value); });
     addNumber<float>(table, {"--environment-rotation", "DEG", "Rotation of the map about the vertical axis", -360.0F, 360.0F, "0"},
                      [&options](float degrees) { options.environmentRotation = degrees; });
+    addNumber<float>(table, {"--environment-strength", "F", "Multiplies the radiance of the environment", 0.0F, 1e6F, "1"},
+                     [&options](float strength) { options.environmentStrength = strength; });
     addEnum(table, "--environment-background", "B", "Whether the camera sees the environment: on or off [on]", {"off", "on"},
             options.environmentBackground);
     table.add("--sun", "AZIMUTH,ELEVATION,E", "A directional light: degrees right of -z, degrees up, W/m^2",
@@ -198,7 +200,8 @@ LoadOptions makeLoadOptions(const PictureOptions& options)
     load.shutter = options.shutter;
     load.animation = options.animation;
     load.environment = options.environment;
-    load.environmentRotation = glm::radians(options.environmentRotation);
+    load.environmentRotation = options.environmentRotation;
+    load.environmentStrength = options.environmentStrength;
     load.environmentBackground = options.environmentBackground;
     load.sun = options.sun;
     load.showsBackFaces = options.showsBackFaces;

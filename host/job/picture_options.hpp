@@ -31,6 +31,7 @@ struct PictureOptions {
     std::optional<double> at;          // seconds
     std::optional<Shutter> shutter;    // of renders
     float environmentRotation = 0.0F;  // degrees
+    float environmentStrength = 1.0F;
     bool environmentBackground = true;
     std::optional<Sun> sun;
     bool showsBackFaces = false;

@@ -76,7 +76,10 @@ void SceneSession::pose(const std::vector<Edit>& edits, std::optional<double> ti
         return;
     }
     if (isEdited) {
-        editScene(prepared_, file_, edits, time, options_.split);
+        LoadOptions load = file_.options();
+        load.edits = edits;
+        load.at = time;
+        changeScene(prepared_, file_, load, options_.split);
     } else {
         updateScene(prepared_, file_, time, options_.split);
     }

@@ -169,21 +169,6 @@ LensChoices changeLens(float widest, LensChoices choices)
     return choices;
 }
 
-SurfaceChoices changeSurface(const PanelFigures& figures, SurfaceChoices choices)
-{
-    ImGui::TextUnformatted(figures.surface.c_str());
-    if (figures.hasMaterial) {
-        ImGui::ColorEdit3("base colour", &choices.baseColor.r, ImGuiColorEditFlags_Float);
-        ImGui::SliderFloat("metallic", &choices.metallic, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-        ImGui::SliderFloat("roughness", &choices.roughness, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    }
-    if (figures.hasNode) {
-        const float step = 0.01F * std::max(1.0F, std::abs(choices.translation.x));
-        ImGui::DragFloat3("translation, m", &choices.translation.x, step, 0.0F, 0.0F, "%.3g");
-    }
-    return choices;
-}
-
 }  // namespace
 
 std::vector<std::string> PanelMessages::lines() const
@@ -215,12 +200,12 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
             ImGui::Separator();
             choices.time = changeTime(figures.animations, choices.time);
         }
-        if (!figures.surface.empty()) {
+        if (!figures.surface.name.empty() || figures.surface.hidden > 0) {
             ImGui::Separator();
-            choices.surface = changeSurface(figures, choices.surface);
+            choices.surface = changeSurface(figures.surface, choices.surface);
         }
-        if (figures.edits > 0) {
-            choices.undo = ImGui::Button(("undo (" + counted(figures.edits, "change") + ")###undo").c_str());
+        if (figures.changes > 0) {
+            choices.undo = ImGui::Button(("undo (" + counted(figures.changes, "change") + ")###undo").c_str());
         }
         ImGui::Separator();
         showFigures(figures);

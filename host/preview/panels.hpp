@@ -2,7 +2,8 @@
 #pragma once
 
 #include "host/preview/lens_control.hpp"
-#include "host/preview/surface_edits.hpp"
+#include "host/preview/scene_panel.hpp"
+#include "host/preview/surface_panel.hpp"
 #include "host/preview/timeline.hpp"
 #include "host/render/aov.hpp"
 #include "host/render/guide_map.hpp"
@@ -34,11 +35,11 @@ struct PanelFigures {
     std::string device;
     std::vector<Aov> layers;
     std::vector<std::string> cameras;
-    std::optional<float> widestAperture;        // its radius, metres; absent: the camera has no lens
-    std::vector<Animation> animations;          // none: there is no time to choose
-    std::string surface;                        // what was clicked, with its material; empty: nothing
-    bool hasMaterial = false, hasNode = false;  // that the user may change
-    std::size_t edits = 0;
+    std::optional<float> widestAperture;  // its radius, metres; absent: the camera has no lens
+    std::vector<Animation> animations;    // none: there is no time to choose
+    SurfaceFigures surface;
+    SceneFigures scene;
+    std::size_t changes = 0;
     bool canGuide = false;
 };
 
@@ -54,6 +55,7 @@ struct PanelChoices {
     bool denoises = true;
     bool showsGuide = false;
     SurfaceChoices surface;
+    SceneChoices scene;
     bool undo = false;
     bool operator==(const PanelChoices&) const = default;
 };

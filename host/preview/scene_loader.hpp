@@ -1,7 +1,6 @@
 // Loads the scene in a thread of its own, and loads it again whenever one of its files changes.
 #pragma once
 
-#include "host/preview/moment.hpp"
 #include "host/render/prepare_scene.hpp"
 
 #include <atomic>
@@ -14,12 +13,10 @@ namespace glim {
 // A scene, and its file to change it by.
 struct LoadedScene {
     LoadedScene(const std::filesystem::path& path, const LoadOptions& options)
-        : file(path, options),
-          moment{options.animation, options.at}
+        : file(path, options)
     {}
 
     SceneFile file;
-    Moment moment;  // of the scene
     PreparedScene prepared;
 };
 
@@ -32,7 +29,7 @@ public:
     // The scene if it has been loaded since the last call, or null. Throws what loading threw.
     std::unique_ptr<LoadedScene> take();
     // Of scenes that are loaded from now on.
-    void setEdits(const std::vector<Edit>& edits) { options_.edits = edits; }
+    void setOptions(const LoadOptions& options) { options_ = options; }
     // The current stage, as in "loading a.gltf"; empty if nothing is being loaded.
     std::string stage() const;
 

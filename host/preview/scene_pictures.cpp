@@ -15,30 +15,14 @@ void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
     loaded_ = std::move(loaded);
 }
 
-void ScenePictures::edit(const std::vector<Edit>& edits, SplitRule split)
+void ScenePictures::change(const LoadOptions& options, SplitRule split)
 {
-    editScene(loaded_->prepared, loaded_->file, edits, loaded_->moment.seconds, split);
-    renew();
-}
-
-void ScenePictures::pose(const Moment& moment, SplitRule split)
-{
-    LoadedScene& loaded = *loaded_;
-    const auto update = [&](const Moment& at) {
-        loaded.file.setAnimation(at.animation);
-        updateScene(loaded.prepared, loaded.file, at.seconds, split);
-    };
-    try {
-        update(moment);
-    } catch (const InputError&) {
-        loaded.file.setAnimation(loaded.moment.animation);
-        if (loaded.prepared.bvh.nodes.empty()) {  // there was too little memory
-            update(loaded.moment);
-        }
-        throw;
+    changeScene(loaded_->prepared, loaded_->file, options, split);
+    leaveOthers();
+    if (light_->needsKernels()) {
+        beforeCompiling_();
     }
-    loaded.moment = moment;
-    renew();
+    light_->renew();
 }
 
 void ScenePictures::setLens(const Lens& lens)
@@ -49,16 +33,6 @@ void ScenePictures::setLens(const Lens& lens)
             (*refiner)->setLens(lens);
         }
     }
-}
-
-// After the scene has changed.
-void ScenePictures::renew()
-{
-    leaveOthers();
-    if (light_->needsKernels()) {
-        beforeCompiling_();
-    }
-    light_->renew();
 }
 
 // They use buffers of light_.

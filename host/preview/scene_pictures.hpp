@@ -24,18 +24,16 @@ public:
 
     // Takes the scene in place of the one before, which stays if the new one is refused. show() follows.
     void enter(std::unique_ptr<LoadedScene> loaded);
-    // The scene with these edits. Kernels and what the edits do not touch stay. If they are refused, throws InputError and changes nothing.
-    // show() follows.
-    void edit(const std::vector<Edit>& edits, SplitRule split);
-    // The same with the scene at another time.
-    void pose(const Moment& moment, SplitRule split);
-    const Moment& moment() const { return loaded_->moment; }
+    // The scene by other options. Kernels and what the options do not touch stay. If they are refused, throws InputError and changes
+    // nothing. show() follows.
+    void change(const LoadOptions& options, SplitRule split);
     // Of pictures that show() starts from now on.
     void setLens(const Lens& lens);
     const Lens& lens() const { return lens_; }
     bool isEmpty() const { return light_ == nullptr; }
     const PreparedScene& scene() const { return loaded_->prepared; }
     const SceneFile& file() const { return loaded_->file; }
+    const LoadOptions& options() const { return loaded_->file.options(); }
 
     // What can be chosen: without a BVH there are no steps.
     std::vector<Aov> layers() const;
@@ -53,7 +51,6 @@ public:
 
 private:
     void leaveOthers();
-    void renew();
 
     Device& device_;
     RenderSettings settings_;

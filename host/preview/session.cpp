@@ -36,6 +36,7 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       timeline_({options.load.animation, options.load.at}),
       denoiser_(screen_.device(), [this] { announceCompiling(); }),
       meter_(options.look),
+      changes_(options.load),
       guideInset_(screen_.device())
 {
     drawer_.resize(glm::max(glm::uvec2(1), window.pictureSize()));
@@ -145,6 +146,7 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     const bool isFirst = pictures_.isEmpty();
     pictures_.enter(std::move(loaded));
     surface_.reset();
+    maps_ = findMaps(options_.scene, changes_.options());
     viewpoint_->enter(pictures_.scene().scene);
     timeline_.enter(pictures_.scene().scene.animations);
     if (!isFirst) {
@@ -153,21 +155,12 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
     show();
 }
 
-// What is refused is said, and the scene stays as it was.
-void Session::edit(const std::vector<Edit>& edits)
+LoadOptions Session::wantedScene() const
 {
-    const std::vector<Edit> all = joinEdits(options_.load.edits, edits);
-    learner_.end();
-    try {
-        pictures_.edit(all, options_.split);
-    } catch (const InputError& error) {
-        tell(error.what());
-        return;
-    }
-    edits_ = edits;
-    loader_.setEdits(all);
-    viewpoint_->enter(pictures_.scene().scene);
-    show();
+    LoadOptions options = changes_.options();
+    options.animation = timeline_.moment().animation;
+    options.at = timeline_.moment().seconds;
+    return options;
 }
 
 bool Session::hasLens() const
@@ -212,28 +205,33 @@ void Session::follow()
     }
 }
 
-// Poses the scene at the present time. Where the file refuses, the time stays as it was.
-void Session::followTime()
+// Changes the scene to what is wanted. What is refused is said, and the scene stays as it was.
+void Session::followScene()
 {
-    if (timeline_.moment() == pictures_.moment()) {
+    const LoadOptions wanted = wantedScene();
+    if (wanted == pictures_.options()) {
         return;
     }
     learner_.end();
     try {
-        pictures_.pose(timeline_.moment(), options_.split);
+        pictures_.change(wanted, options_.split);
     } catch (const InputError& error) {
         tell(error.what());
-        timeline_.rest(pictures_.moment());
+        changes_.giveUp(pictures_.options());
+        timeline_.rest({pictures_.options().animation, pictures_.options().at});
+        renewSurface();
         return;
     }
+    loader_.setOptions(wanted);
     viewpoint_->enter(pictures_.scene().scene);
+    renewSurface();
 }
 
-// Begins a new picture with the present camera, lens and time.
+// Begins a new picture with the present camera, lens, scene and time.
 void Session::show()
 {
     learner_.cancel();
-    followTime();
+    followScene();
     pictures_.setLens(lens_.lens());
     pictures_.show(viewpoint_->camera(size()), size());
     begin();
@@ -369,6 +367,7 @@ void Session::handle(const Event& event)
         screen_.gui().point(event);
         break;
     case Kind::KeyDown:
+        ++action_;
         pacer_.await(event.when);
         press(event.key);
         break;
@@ -379,6 +378,7 @@ void Session::handle(const Event& event)
 // The panels take what is theirs. The mouse may move over the picture without any answer, unless it asks the guide.
 void Session::handleMouse(const Event& event)
 {
+    action_ += event.kind == Event::Kind::ButtonDown ? 1 : 0;
     screen_.gui().point(event);
     buildPanels();
     const bool panels = screen_.gui().hasMouse();
@@ -392,6 +392,10 @@ void Session::handleMouse(const Event& event)
     mouseIsPanels_ = panels;
     if (gesture && gesture->kind == Gesture::Kind::Click) {
         clickAt(gesture->position);
+    } else if (gesture && dragsSun_ && gesture->kind == Gesture::Kind::Orbit) {
+        LoadOptions options = changes_.options();
+        options.sun = dragSun(*options.sun, gesture->motion, static_cast<double>(size().y));
+        changes_.change(options, action_);
     } else if (gesture && viewpoint_) {
         viewpoint_->follow(*gesture, static_cast<double>(size().y));
     }
@@ -488,12 +492,29 @@ void Session::focusOn(const std::optional<Pick>& found)
     say("in focus: " + format("%.6g m", found->depth) + (lens_.choices().radius > 0.0F ? "" : "; the aperture is a pinhole still"));
 }
 
+// What the controls show of the surface that was clicked, in the scene that has changed. It may be gone, or have another variant's
+// material.
+void Session::renewSurface()
+{
+    if (!surface_) {
+        return;
+    }
+    const Scene& scene = pictures_.scene().scene;
+    const bool isThere = std::ranges::any_of(scene.instances, [this](const MeshInstance& i) { return i.node == surface_->node; }) ||
+                         std::ranges::any_of(scene.spheres, [this](const Sphere& sphere) { return sphere.node == surface_->node; });
+    if (!isThere || surface_->material >= scene.materials.size()) {
+        surface_.reset();
+    } else {
+        surface_->choices = choicesOf(*surface_, scene, pictures_.file());
+    }
+}
+
 void Session::undo()
 {
-    if (edits_.empty()) {
+    if (changes_.count() == 0) {
         say("There is nothing to undo.");
     } else {
-        edit({edits_.begin(), edits_.end() - 1});
+        changes_.undo();
     }
 }
 
@@ -538,7 +559,7 @@ void Session::printCamera()
     const std::string options = "--camera " + std::to_string(viewpoint_->index()) +
                                 cameraOptions(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection) + " --size " +
                                 std::to_string(size().x) + "x" + std::to_string(size().y) + timeline_.options() +
-                                editOptions(joinEdits(options_.load.edits, edits_));
+                                editOptions(changes_.options().edits);
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
 }
@@ -547,7 +568,7 @@ void Session::writePictures()
 {
     Film film = pictures_.shown().renderer().film();
     film.sceneFile = options_.scene.string();
-    film.showsBackground = options_.load.environmentBackground;
+    film.showsBackground = changes_.options().environmentBackground;
     film.identity.settings += describeCamera(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);

@@ -13,6 +13,7 @@
 #include "host/preview/picture_drawer.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
+#include "host/preview/scene_changes.hpp"
 #include "host/preview/scene_loader.hpp"
 #include "host/preview/scene_pictures.hpp"
 #include "host/preview/timeline.hpp"
@@ -35,11 +36,9 @@ public:
     void printSummary() const;
 
 private:
-    // Whether the picture under way is not that of the present camera, lens and time.
-    bool hasMoved() const
-    {
-        return !pictures_.isEmpty() && (viewpoint_->hasMoved() || timeline_.moment() != pictures_.moment() || !hasLens());
-    }
+    // Whether the picture under way is not that of the present camera, lens, scene and time.
+    bool hasMoved() const { return !pictures_.isEmpty() && (viewpoint_->hasMoved() || wantedScene() != pictures_.options() || !hasLens()); }
+    LoadOptions wantedScene() const;
     // Whether the next picture is another one without any input.
     bool movesItself() const { return timeline_.isPlaying() || (viewpoint_ && viewpoint_->isFlying()); }
     bool hasLens() const;
@@ -54,11 +53,10 @@ private:
     void takeEvents(double seconds);
     void takeScene();
     void enter(std::unique_ptr<LoadedScene> loaded);
-    void edit(const std::vector<Edit>& edits);
     void resize();
     void step();
     void follow();
-    void followTime();
+    void followScene();
     void show();
     void begin();
     bool work();
@@ -82,6 +80,7 @@ private:
     void focusOn(const std::optional<Pick>& found);
     void clickAt(const glm::dvec2& position);
     void printCamera();
+    void renewSurface();
     void undo();
     void writePictures();
     void say(const std::string& text);   // shows the text in the window
@@ -91,6 +90,7 @@ private:
     PanelChoices chosen() const;
     PanelChoices layOutPanels(const PanelChoices& before);
     void buildPanels();
+    void changeSurface(const SurfaceChoices& before, const SurfaceChoices& wanted);
     void announceCompiling();
     PanelFigures figures() const;
 
@@ -113,7 +113,10 @@ private:
     Pacer pacer_;
     PanelMessages messages_;
 
-    std::vector<Edit> edits_;  // of the user, after those of the options
+    SceneChanges changes_;
+    std::vector<std::filesystem::path> maps_;  // that the environment may be
+    bool dragsSun_ = false;
+    std::uint64_t action_ = 0;  // of the user: keys and buttons that went down
     Picker picker_;
     std::optional<ChosenSurface> surface_;  // that was clicked
     GuideInset guideInset_;

@@ -24,7 +24,8 @@ PanelChoices Session::chosen() const
             timeline_.choices(),
             denoises_,
             showsGuide_,
-            surface_ ? choicesOf(*surface_, pictures_.scene().scene, pictures_.file()) : SurfaceChoices()};
+            surface_ ? surface_->choices : SurfaceChoices(),
+            {changes_.options(), dragsSun_}};
 }
 
 // Returns what the user wants to be chosen.
@@ -35,7 +36,9 @@ PanelChoices Session::layOutPanels(const PanelChoices& before)
         const bool isThere = !pictures_.isEmpty();
         const float below = !isThere || panelLevel_ > 0 ? showMessages(messages_.lines()) : 0.0F;
         if (isThere && panelLevel_ == 1) {
-            wanted = showControls(figures(), before);
+            const PanelFigures shown = figures();
+            wanted = showControls(shown, before);
+            wanted.scene = showScene(shown.scene, before.scene);
         }
         if (showsGuide()) {
             showGuide(guideInset_.map(), guideInset_.why());
@@ -84,15 +87,35 @@ void Session::buildPanels()
     }
     denoises_ = wanted.denoises;
     showsGuide_ = wanted.showsGuide;
+    dragsSun_ = wanted.scene.dragsSun;
     if (wanted.undo) {
         undo();
-    } else if (surface_ && wanted.surface != before.surface) {
-        std::vector<Edit> edits = edits_;
-        for (const Edit& change : listEdits(*surface_, before.surface, wanted.surface)) {
-            edits = withEdit(std::move(edits), change);
-        }
-        edit(edits);
+    } else if (wanted.surface != before.surface) {
+        changeSurface(before.surface, wanted.surface);
+    } else if (wanted.scene.load != before.scene.load) {
+        changes_.change(wanted.scene.load, action_);
     }
+}
+
+void Session::changeSurface(const SurfaceChoices& before, const SurfaceChoices& wanted)
+{
+    LoadOptions options = changes_.options();
+    if (surface_) {
+        for (const Edit& change : listEdits(*surface_, before, wanted)) {
+            options.edits = withEdit(std::move(options.edits), change);
+        }
+        surface_->choices = wanted;
+        surface_->choices.hides = surface_->choices.isolates = false;
+    }
+    if (surface_ && wanted.isolates) {
+        for (const std::string& node : pictures_.file().pointersToOthers(pictures_.scene().scene, surface_->node)) {
+            options.edits = withEdit(std::move(options.edits), hidingEdit(node));
+        }
+    }
+    if (wanted.showsAll) {
+        std::erase_if(options.edits, hides);
+    }
+    changes_.change(options, action_);
 }
 
 PanelFigures Session::figures() const
@@ -121,10 +144,12 @@ PanelFigures Session::figures() const
         figures.widestAperture = std::max(kWidestAperture * static_cast<float>(viewpoint_->sceneRadius()), lens_.choices().radius);
     }
     figures.animations = timeline_.animations();
-    figures.surface = surface_ ? surface_->name : "";
-    figures.hasMaterial = surface_ && surface_->materialPointer;
-    figures.hasNode = surface_ && surface_->nodePointer;
-    figures.edits = edits_.size();
+    const std::vector<Edit>& edits = changes_.options().edits;
+    figures.surface = {surface_ ? surface_->name : "", surface_ && surface_->materialPointer, surface_ && surface_->nodePointer,
+                       static_cast<std::size_t>(std::ranges::count_if(edits, hides))};
+    const Scene& scene = pictures_.scene().scene;
+    figures.scene = {scene.variants, maps_, scene.environment.has_value(), scene.environment && scene.environment->map};
+    figures.changes = changes_.count();
     figures.canGuide = options_.guiding;
     return figures;
 }

@@ -136,16 +136,16 @@ void updateScene(PreparedScene& prepared, SceneFile& file, std::optional<double>
     });
 }
 
-void editScene(PreparedScene& prepared, SceneFile& file, const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split)
+void changeScene(PreparedScene& prepared, SceneFile& file, const LoadOptions& options, SplitRule split)
 {
-    const std::vector<Edit> before = file.edits();
-    file.edit(edits);
+    const LoadOptions before = file.options();
+    file.choose(options);
     try {
-        updateScene(prepared, file, seconds, split);
+        updateScene(prepared, file, options.at, split);
     } catch (const InputError&) {
-        file.edit(before);
+        file.choose(before);
         if (prepared.bvh.nodes.empty()) {  // there was too little memory
-            updateScene(prepared, file, seconds, split);
+            updateScene(prepared, file, before.at, split);
         }
         throw;
     }

@@ -42,8 +42,8 @@ enum class SceneUse { Once, Again };
 void updateScene(
     PreparedScene& prepared, SceneFile& file, std::optional<double> seconds, SplitRule split,
     const std::function<void(const std::string&)>& stage = [](const std::string&) {}, SceneUse use = SceneUse::Again);
-// The same after edits in place of the file's. If they are refused, neither scene nor file has changed.
-void editScene(PreparedScene& prepared, SceneFile& file, const std::vector<Edit>& edits, std::optional<double> seconds, SplitRule split);
+// The same by other options in place of the file's, at the time that they have. If they are refused, neither scene nor file has changed.
+void changeScene(PreparedScene& prepared, SceneFile& file, const LoadOptions& options, SplitRule split);
 
 // The camera of that index, else of that name (the first if absent). Throws InputError that lists the cameras.
 const Camera& findCamera(const Scene& scene, const std::optional<std::string>& choice);

@@ -8,7 +8,9 @@
 #include "host/scene/gltf/animate_gltf.hpp"
 #include "host/scene/gltf/edit_gltf.hpp"
 #include "host/scene/gltf/extensions.hpp"
+#include "host/scene/gltf/isolate_node.hpp"
 #include "host/scene/gltf/pose_mesh.hpp"
+#include "host/scene/gltf/read_environment.hpp"
 #include "host/scene/gltf/read_geometry.hpp"
 #include "host/scene/gltf/read_images.hpp"
 #include "host/scene/gltf/read_lights.hpp"
@@ -16,18 +18,14 @@
 #include "host/scene/gltf/read_motion.hpp"
 #include "host/scene/join_scenes.hpp"
 #include "host/scene/make_floor.hpp"
-#include "host/scene/make_studio.hpp"
 #include "host/text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace glim {
 namespace {
-
-constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
 void noteIgnoredParts(const GltfFile& file, Warnings& warnings)
 {
@@ -103,123 +101,9 @@ void chooseTime(GltfFile& file, const LoadOptions& options, std::optional<double
     }
 }
 
-Environment readMap(const std::filesystem::path& path, const LoadOptions& options, DecodedParts& decoded, Scene& scene, Warnings& warnings)
-{
-    Environment environment;
-    environment.map = decoded.findMap(path.string(), [&path] { return readRadianceMap(path); });
-    environment.rotation = options.environmentRotation;
-    environment.source = path.string();
-    scene.files.push_back(path);
-    if (environment.map->repaired > 0) {
-        warnings.add({MessageId::RepairedTexels,
-                      {part::file(path.string()), " holds ", part::value(counted(environment.map->repaired, "texel")),
-                       " that are negative or not finite; they count as 0"}});
-    }
-    return environment;
-}
-
-// scenes[i].extras.environment: {"file", "strength"}.
-std::optional<Environment> readNamedMap(const GltfFile& file, const LoadOptions& options, std::size_t index, DecodedParts& decoded,
-                                        Scene& scene, Warnings& warnings)
-{
-    const tinygltf::Value& extras = file.model.scenes[index].extras;
-    if (!extras.IsObject() || !extras.Has("environment")) {
-        return std::nullopt;
-    }
-    const tinygltf::Value& source = extras.Get("environment");
-    const std::string place = label("scenes", index, file.model.scenes[index].name) + ".extras.environment";
-    if (!source.IsObject() || !source.Has("file") || !source.Get("file").IsString()) {
-        warnings.add({MessageId::ExtrasIgnored, {part::place(place), " has no \"file\" and is ignored"}});
-        return std::nullopt;
-    }
-    const std::string name = source.Get("file").Get<std::string>();
-    if (options.confined) {
-        refuseOutside(file.path, place, name);
-    }
-    Environment environment;
-    try {
-        environment = readMap(externalFile(file.path, name), options, decoded, scene, warnings);
-    } catch (const InputError& error) {
-        throw InputError(error, {part::file(file.path), ": ", part::place(place), " names the map ", part::quoted(name),
-                                 ", which cannot be read (", error.what(), ")"});
-    }
-    if (source.Has("strength")) {
-        const tinygltf::Value& strength = source.Get("strength");
-        const double factor = strength.IsNumber() ? strength.GetNumberAsDouble() : -1.0;
-        if (!(factor >= 0.0 && factor <= kMaxFloat)) {
-            refuse(file, MessageId::OutOfRange,
-                   {part::place(place + ".strength"), " is ", part::value(strength.IsNumber() ? toText(factor) : "not a number"),
-                    "; expected ", part::expected("a number from 0 that fits a float")});
-        }
-        environment.radiance = glm::vec3(static_cast<float>(factor));
-    }
-    return environment;
-}
-
 // Shares of what the camera sees. Below the first one the built-in studio joins the scene's own lights; below the second one a line says
 // that it can.
 constexpr double kEnoughLit = 1.0 / 3.0, kMostLit = 0.5;
-
-std::optional<Environment> readFileEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
-                                               Warnings& warnings)
-{
-    if (file.model.scenes.empty()) {
-        return std::nullopt;
-    }
-    const auto first = static_cast<std::size_t>(std::max(file.model.defaultScene, 0));
-    const std::size_t index = options.scene.value_or(first);
-    std::optional<Environment> environment = readNamedMap(file, options, index, decoded, scene, warnings);
-    if (!environment) {
-        environment = readImageLight(file, index, decoded, scene, warnings);
-        if (environment) {
-            environment->rotation = options.environmentRotation;
-        }
-    }
-    return environment;
-}
-
-Environment makeStudioEnvironment(const LoadOptions& options, DecodedParts& decoded)
-{
-    Environment environment;
-    environment.source = "studio";
-    environment.map = decoded.findMap(environment.source, makeStudio);
-    environment.rotation = options.environmentRotation;
-    environment.background = options.environmentBackground;
-    return environment;
-}
-
-std::optional<Environment> chooseEnvironment(const GltfFile& file, const LoadOptions& options, DecodedParts& decoded, Scene& scene,
-                                             Warnings& warnings)
-{
-    std::optional<Environment> environment;
-    if (!options.environment) {
-        environment = readFileEnvironment(file, options, decoded, scene, warnings);
-    } else if (const auto* radiance = std::get_if<glm::vec3>(&*options.environment)) {
-        environment.emplace().radiance = *radiance;
-        environment->source = "constant";
-    } else if (const auto* path = std::get_if<std::filesystem::path>(&*options.environment)) {
-        environment = readMap(*path, options, decoded, scene, warnings);
-    }
-    if (options.environment == EnvironmentChoice(BuiltInEnvironment::Studio)) {
-        environment = makeStudioEnvironment(options, decoded);
-    }
-    if (environment) {
-        environment->background = options.environmentBackground;
-    }
-    return environment;
-}
-
-PunctualLight lightOf(const Sun& sun)
-{
-    const double azimuth = glm::radians(sun.azimuth), elevation = glm::radians(sun.elevation);
-    PunctualLight light;
-    light.name = "sun";
-    light.kind = PunctualLight::Kind::Directional;
-    light.direction =
-        -glm::vec3(glm::dvec3(std::sin(azimuth) * std::cos(elevation), std::sin(elevation), -std::cos(azimuth) * std::cos(elevation)));
-    light.intensity = glm::vec3(sun.irradiance);
-    return light;
-}
 
 std::vector<std::string> readVariants(const GltfFile& file)
 {
@@ -287,6 +171,32 @@ Camera placeFramed(const Framed& framed, const glm::dvec3& origin)
     return camera;
 }
 
+// The options that choose no time, and those that choose neither time nor light.
+LoadOptions withoutTime(LoadOptions options)
+{
+    options.at.reset();
+    options.animation.clear();
+    return options;
+}
+
+LoadOptions withoutLight(LoadOptions options)
+{
+    const LoadOptions usual;
+    options.environment = usual.environment;
+    options.environmentRotation = usual.environmentRotation;
+    options.environmentStrength = usual.environmentStrength;
+    options.environmentBackground = usual.environmentBackground;
+    options.sun = usual.sun;
+    return withoutTime(std::move(options));
+}
+
+// Whether files are read as before.
+bool readsAlike(const LoadOptions& a, const LoadOptions& b)
+{
+    return a.scene == b.scene && a.missingTextures == b.missingTextures && a.confined == b.confined && a.maxTexture == b.maxTexture &&
+           a.additions == b.additions;
+}
+
 // One file of a scene.
 class FilePart {
 public:
@@ -300,17 +210,16 @@ public:
     }
 
     // Leaves the part as it was if it throws.
-    void edit(const std::vector<Edit>& edits)
+    void choose(const LoadOptions& options)
     {
-        for (const std::size_t image : editGltf(file_, edits)) {
-            decoded_.forgetImage(image);
+        if (options.edits != options_.edits) {
+            edit(options.edits);
         }
-        options_.edits = edits;
-        framed_.reset();
-        posed_ = false;
+        if (withoutLight(options) != withoutLight(options_)) {
+            framed_.reset();
+        }
+        options_ = options;
     }
-
-    void setAnimation(const std::string& animation) { options_.animation = animation; }
 
     // Without the lights and cameras that the options give it.
     // `blurred`: with motions while the options' shutter is open.
@@ -321,6 +230,14 @@ public:
     const tinygltf::Model& model() const { return file_.model; }
 
 private:
+    void edit(const std::vector<Edit>& edits)
+    {
+        for (const std::size_t image : editGltf(file_, edits)) {
+            decoded_.forgetImage(image);
+        }
+        posed_ = false;
+    }
+
     Framed frameRestPose();
 
     GltfFile file_;
@@ -478,14 +395,19 @@ struct SceneFile::Contents {
     std::vector<std::uint32_t> firstNodes, firstMaterials;  // of each part, in the last scene
 
     Contents(const std::filesystem::path& path, const LoadOptions& options)
-        : main(path, withEdits(options, ownEdits(options.edits, options.additions)), false)
+        : main(path, mainOptions(options), false)
     {
         for (const Addition& addition : options.additions) {
-            LoadOptions own;
-            own.missingTextures = options.missingTextures;
-            own.confined = options.confined;
-            own.maxTexture = options.maxTexture;
-            added.emplace_back(addition.file, withEdits(own, editsOf(options.edits, addition)), true);
+            added.emplace_back(addition.file, addedOptions(options, addition), true);
+        }
+    }
+
+    // If it throws, the options before are to be chosen again.
+    void choose(const LoadOptions& options)
+    {
+        main.choose(mainOptions(options));
+        for (std::size_t i = 0; i < added.size(); ++i) {
+            added[i].choose(addedOptions(options, options.additions[i]));
         }
     }
 
@@ -498,10 +420,20 @@ struct SceneFile::Contents {
         return {static_cast<std::size_t>(after - firsts.begin() - 1), index - *(after - 1)};
     }
 
-    static LoadOptions withEdits(LoadOptions options, std::vector<Edit> edits)
+    static LoadOptions mainOptions(LoadOptions options)
     {
-        options.edits = std::move(edits);
+        options.edits = ownEdits(options.edits, options.additions);
         return options;
+    }
+
+    static LoadOptions addedOptions(const LoadOptions& options, const Addition& addition)
+    {
+        LoadOptions own;
+        own.missingTextures = options.missingTextures;
+        own.confined = options.confined;
+        own.maxTexture = options.maxTexture;
+        own.edits = editsOf(options.edits, addition);
+        return own;
     }
 };
 
@@ -642,37 +574,28 @@ Scene SceneFile::sceneAt(std::optional<double> seconds, bool blurred)
     return scene;
 }
 
-void SceneFile::edit(const std::vector<Edit>& edits)
+void SceneFile::choose(const LoadOptions& options)
 {
-    LoadOptions options = options_;
-    options.edits = edits;
     checkFilesOfEdits(path_, options);
-    const auto apply = [this](const std::vector<Edit>& all) {
-        contents_->litShare.reset();
-        contents_->floor.reset();
-        contents_->lightGroups.reset();
-        contents_->main.edit(ownEdits(all, options_.additions));
-        for (std::size_t i = 0; i < options_.additions.size(); ++i) {
-            contents_->added[i].edit(editsOf(all, options_.additions[i]));
-        }
-    };
-    if (contents_) {
+    if (contents_ && !readsAlike(options, options_)) {
+        auto other = std::make_unique<Contents>(path_, options);
+        contents_ = std::move(other);
+    } else if (contents_) {
         try {
-            apply(edits);
+            contents_->choose(options);
         } catch (const InputError&) {
-            apply(options_.edits);
+            contents_->choose(options_);
             throw;
         }
+        if (withoutLight(options) != withoutLight(options_)) {
+            contents_->litShare.reset();
+            contents_->floor.reset();
+        }
+        if (withoutTime(options) != withoutTime(options_)) {
+            contents_->lightGroups.reset();
+        }
     }
-    options_.edits = edits;
-}
-
-void SceneFile::setAnimation(const std::string& animation)
-{
-    options_.animation = animation;
-    if (contents_) {
-        contents_->main.setAnimation(animation);
-    }
+    options_ = options;
 }
 
 std::optional<std::string> SceneFile::pointerToNode(std::uint32_t node) const
@@ -686,6 +609,32 @@ std::optional<std::string> SceneFile::pointerToMaterial(std::uint32_t material) 
     const auto [part, index] = Contents::placeOf(contents_->firstMaterials, material);
     return index < contents_->modelOf(part).materials.size() ? std::optional(prefixOf(part) + "/materials/" + std::to_string(index))
                                                              : std::nullopt;
+}
+
+std::vector<std::string> SceneFile::pointersToOthers(const Scene& scene, std::uint32_t node) const
+{
+    std::vector<std::set<std::size_t>> drawn(contents_->firstNodes.size());  // by part
+    const auto add = [&](const auto& objects) {
+        for (const auto& object : objects) {
+            if (object.node != kNoIndex) {
+                const auto [part, index] = Contents::placeOf(contents_->firstNodes, object.node);
+                if (index < contents_->modelOf(part).nodes.size()) {  // it is not the floor
+                    drawn[part].insert(index);
+                }
+            }
+        }
+    };
+    add(scene.instances);
+    add(scene.spheres);
+    const Contents::Place kept = Contents::placeOf(contents_->firstNodes, node);
+    std::vector<std::string> pointers;
+    for (std::size_t part = 0; part < drawn.size(); ++part) {
+        for (const std::size_t hidden :
+             nodesToHide(contents_->modelOf(part), drawn[part], part == kept.part ? std::optional(kept.index) : std::nullopt)) {
+            pointers.push_back(prefixOf(part) + "/nodes/" + std::to_string(hidden));
+        }
+    }
+    return pointers;
 }
 
 std::string SceneFile::prefixOf(std::size_t part) const

@@ -50,7 +50,8 @@ struct SceneFloor {
 struct LoadOptions {
     std::optional<std::size_t> scene;              // index into the file's scenes; if absent its default scene, else the first
     std::optional<EnvironmentChoice> environment;  // replaces the file's
-    float environmentRotation = 0.0F;              // of a map about +y, radians, added to the file's
+    float environmentRotation = 0.0F;              // of a map about +y, degrees, added to the file's
+    float environmentStrength = 1.0F;              // multiplies the radiance of any environment
     bool environmentBackground = true;             // the camera sees the environment
     std::optional<Sun> sun;
     bool showsBackFaces = false;
@@ -91,18 +92,19 @@ public:
     Scene sceneAt(std::optional<double> seconds, bool blurred = true);
     // Frees what was read; the next scene reads it again.
     void release();
-    // Edits in place of those of the options. Buffers, images and maps stay, and meshes that no edit bends. A pointer begins with the name
-    // of an added file and a # where it is one of that file. Throws InputError, and then nothing is changed.
-    void edit(const std::vector<Edit>& edits);
-    // Another animation in place of that of the options: its name or index.
-    void setAnimation(const std::string& animation);
+    // Other options in place of those before. What was read stays unless they say that it is read otherwise: buffers, images and maps, and
+    // meshes that no edit bends. An edit's pointer begins with the name of an added file and a # where it is one of that file. Throws
+    // InputError, and then nothing is changed.
+    void choose(const LoadOptions& options);
     const std::filesystem::path& path() const { return path_; }
-    const std::vector<Edit>& edits() const { return options_.edits; }
+    const LoadOptions& options() const { return options_; }
 
     // Where edits find a node or a material of the last scene, as in /materials/3 or floor.glb#/materials/0; nothing for what no file has,
     // as the default material.
     std::optional<std::string> pointerToNode(std::uint32_t node) const;
     std::optional<std::string> pointerToMaterial(std::uint32_t material) const;
+    // The nodes that hide all but this one of what is drawn in `scene`, the last one, where edits find them. Lights stay.
+    std::vector<std::string> pointersToOthers(const Scene& scene, std::uint32_t node) const;
     // Of that node, relative to its parent, as the file and the edits have it.
     glm::dvec3 translationOf(std::uint32_t node) const;
 

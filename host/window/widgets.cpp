@@ -29,15 +29,27 @@ float helpScale(std::span<const HelpLine> lines, float below)
     return std::clamp(std::min(wide, high), kSmallest, 1.0F);
 }
 
+bool beginControls(const char* title)
+{
+    ImGui::SetNextWindowBgAlpha(kOpacity);
+    const bool shows = ImGui::Begin(title, nullptr, kFlags);
+    ImGui::PushItemWidth(kWidth * ImGui::GetFontSize() - ImGui::CalcTextSize("exposure").x);
+    return shows;
+}
+
 }  // namespace
 
 bool beginPanel(const char* title)
 {
     ImGui::SetNextWindowPos({0.0F, 0.0F}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(kOpacity);
-    const bool shows = ImGui::Begin(title, nullptr, kFlags);
-    ImGui::PushItemWidth(kWidth * ImGui::GetFontSize() - ImGui::CalcTextSize("exposure").x);
-    return shows;
+    return beginControls(title);
+}
+
+bool beginSidePanel(const char* title)
+{
+    ImGui::SetNextWindowPos(ImGui::GetIO().DisplaySize, ImGuiCond_Always, {1.0F, 1.0F});
+    ImGui::SetNextWindowCollapsed(true, ImGuiCond_FirstUseEver);
+    return beginControls(title);
 }
 
 void endPanel()

@@ -13,6 +13,8 @@ namespace glim {
 
 // The panel of controls, in the upper left corner at first. Returns whether its contents show; endPanel follows in any case.
 bool beginPanel(const char* title);
+// The same in the lower right corner, closed at first.
+bool beginSidePanel(const char* title);
 void endPanel();
 
 // A panel in the upper right corner, which the mouse does not meet. ImGui::End follows in any case.

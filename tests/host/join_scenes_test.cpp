@@ -4,6 +4,7 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/job/parse.hpp"
 #include "host/scene/frame_camera.hpp"
+#include "tests/support/edit_file.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -157,7 +158,8 @@ TEST_F(JoinScenesTest, ARefusedEditChangesNothing)
     const glm::vec3 before = file.sceneAt(std::nullopt).materials[0].baseColor;
     expectRefusal<InputError>(
         [&] {
-            file.edit({{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0, 0, 1, 1]"}, {"vase.gltf#/materials/9/alphaCutoff", "1"}});
+            edit(file,
+                 {{"/materials/0/pbrMetallicRoughness/baseColorFactor", "[0, 0, 1, 1]"}, {"vase.gltf#/materials/9/alphaCutoff", "1"}});
         },
         MessageId::DanglingIndex, {.file = "vase.gltf", .place = "/materials/9/alphaCutoff"});
     EXPECT_EQ(file.sceneAt(std::nullopt).materials[0].baseColor, before);
@@ -168,12 +170,12 @@ TEST_F(JoinScenesTest, AnEditKeepsTheMeshes)
 {
     SceneFile file(table(), with("vase.gltf"));
     const Scene before = file.sceneAt(std::nullopt);
-    file.edit({{"/materials/0/pbrMetallicRoughness/roughnessFactor", "0.5"}, {"vase.gltf#/nodes/vase/translation", "[0, 1, 0]"}});
+    edit(file, {{"/materials/0/pbrMetallicRoughness/roughnessFactor", "0.5"}, {"vase.gltf#/nodes/vase/translation", "[0, 1, 0]"}});
     const Scene after = file.sceneAt(std::nullopt);
     EXPECT_TRUE(after.meshes.isSameAs(before.meshes));
     EXPECT_EQ(after.materials[0].roughness, 0.5F);
     EXPECT_EQ(after.instances[1].worldFromMesh[3], glm::dvec4(0, 1, 0, 1));
-    file.edit({{"vase.gltf#/materials/glaze/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}});
+    edit(file, {{"vase.gltf#/materials/glaze/extensions/KHR_materials_anisotropy/anisotropyStrength", "0.5"}});
     EXPECT_FALSE(file.sceneAt(std::nullopt).meshes.isSameAs(before.meshes)) << "they need tangents";
 }
 
@@ -221,7 +223,7 @@ TEST_F(JoinScenesTest, MaterialsStayThoseOfTheirMeshes)
     writeText(folder_ / "ball.gltf", builder.toGltf());
     SceneFile file(folder_ / "ball.gltf", with("vase.gltf"));
     for (const char* visible : {"true", "false", "true"}) {
-        file.edit({{"/nodes/1/extensions/KHR_node_visibility/visible", visible}});
+        edit(file, {{"/nodes/1/extensions/KHR_node_visibility/visible", visible}});
         const Scene scene = file.sceneAt(std::nullopt);
         EXPECT_EQ(scene.materials.at(scene.meshes[scene.instances.at(1).mesh].material).name, "glaze") << visible;
     }

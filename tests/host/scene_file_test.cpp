@@ -2,6 +2,7 @@
 #include "host/error.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/render/prepare_scene.hpp"
+#include "tests/support/edit_file.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -120,15 +121,15 @@ TEST_F(SceneFileTest, AnEditReplacesAnImage)
         "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGPgBAAACwAKwyvukgAAAABJRU5ErkJggg==";
     SceneFile file(folder_ / "scene.gltf");
     const Scene before = file.sceneAt(std::nullopt);
-    file.edit({{"/images/0/uri", "\"other.png\""}});
+    edit(file, {{"/images/0/uri", "\"other.png\""}});
     const Scene other = file.sceneAt(std::nullopt);
     EXPECT_EQ(other.images.at(0).pixels->rgba8, (std::vector<std::uint8_t>{1, 2, 3, 255, 4, 5, 6, 255}));
     EXPECT_EQ(other.files.back(), folder_ / "other.png");
-    file.edit({{"/images/0/uri", "\"other.png\""}, {"/materials/0/alphaCutoff", "0.25"}});
+    edit(file, {{"/images/0/uri", "\"other.png\""}, {"/materials/0/alphaCutoff", "0.25"}});
     EXPECT_EQ(file.sceneAt(std::nullopt).images.at(0).pixels, other.images.at(0).pixels);
-    file.edit({{"/images/0/uri", json(embedded).dump()}});
+    edit(file, {{"/images/0/uri", json(embedded).dump()}});
     EXPECT_EQ(file.sceneAt(1.0).images.at(0).pixels->rgba8, (std::vector<std::uint8_t>{9, 9, 9, 255}));
-    file.edit({});
+    edit(file, {});
     EXPECT_EQ(file.sceneAt(std::nullopt).images.at(0).pixels->rgba8, before.images.at(0).pixels->rgba8);
 }
 
@@ -146,9 +147,9 @@ TEST_F(SceneFileTest, AnEditReplacesAnImageOfABuffer)
     SceneFile file(folder_ / "buffer.gltf");
     const auto red = [&file] { return file.sceneAt(std::nullopt).images.at(0).pixels->rgba8.at(0); };
     EXPECT_EQ(red(), 9);
-    file.edit({{"/images/0/uri", "\"image.png\""}});
+    edit(file, {{"/images/0/uri", "\"image.png\""}});
     EXPECT_EQ(red(), 200);
-    file.edit({});
+    edit(file, {});
     EXPECT_EQ(red(), 9);
 }
 
@@ -159,10 +160,10 @@ TEST_F(SceneFileTest, AConfinedEditStaysInTheFolder)
     SceneFile file(folder_ / "scene.gltf", options);
     file.sceneAt(std::nullopt);
     const std::vector<Edit> outside{{"/images/0/uri", "\"../image.png\""}};
-    expectRefusal<InputError>([&] { file.edit(outside); }, MessageId::OutsideFolder, {.place = "images[0]", .value = "../image.png"});
+    expectRefusal<InputError>([&] { edit(file, outside); }, MessageId::OutsideFolder, {.place = "images[0]", .value = "../image.png"});
     EXPECT_EQ(file.sceneAt(std::nullopt).images.at(0).pixels->rgba8.at(0), 200);
     SceneFile free(folder_ / "scene.gltf");
-    free.edit(outside);
+    edit(free, outside);
     expectRefusal<InputError>([&] { free.sceneAt(std::nullopt); }, MessageId::FileMissing);
 }
 
@@ -226,7 +227,7 @@ TEST_F(SceneFileTest, AnEditTouchesWhatItChanges)
         for (const std::vector<Edit>& edits : {std::vector<Edit>{c.edit}, {}}) {
             const FlatScene before = prepared.flat;
             const SharedVector<Mesh> meshes = prepared.scene.meshes;
-            file.edit(edits);
+            edit(file, edits);
             updateScene(prepared, file, std::nullopt, SplitRule::Sah);
             LoadOptions options;
             options.edits = edits;
@@ -279,9 +280,9 @@ TEST_F(SceneFileTest, ARefusedEditLeavesTheSceneAsItWas)
     const std::string path = writeTemporary("fans.gltf", fans().toGltf());
     SceneFile file(path);
     const std::vector<Edit> edits{{"/materials/0/alphaCutoff", "0.75"}};
-    file.edit(edits);
+    edit(file, edits);
     ASSERT_EQ(file.sceneAt(std::nullopt).materials[0].alphaCutoff, 0.75F);
-    EXPECT_THROW(file.edit({{"/materials/0/alphaCutoff", "0.25"}, {"/materials/9/alphaCutoff", "0.25"}}), InputError);
+    EXPECT_THROW(edit(file, {{"/materials/0/alphaCutoff", "0.25"}, {"/materials/9/alphaCutoff", "0.25"}}), InputError);
     EXPECT_EQ(file.sceneAt(std::nullopt).materials[0].alphaCutoff, 0.75F);
 }
 

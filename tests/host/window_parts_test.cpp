@@ -10,10 +10,13 @@
 #include "host/window/notice.hpp"
 #include "host/window/script.hpp"
 #include "host/window/widgets.hpp"
+#include "tests/support/edit_file.hpp"
 #include "tests/support/expect_message.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <imgui_internal.h>
 #include <algorithm>
@@ -34,11 +37,12 @@ std::vector<ScriptStep> read(const std::string& text)
 TEST(SurfaceEdits, SayWhatDiffers)
 {
     const ChosenSurface surface{"a", 0, 0, "/nodes/3", "b.glb#/materials/1"};
-    const SurfaceChoices before{{1.0F, 0.5F, 0.25F, 0.75F}, 1.0F, 0.5F, {0.0F, 0.0F, 0.0F}};
+    SurfaceChoices before;
+    before.baseColor = {1.0F, 0.5F, 0.25F, 0.75F};
     EXPECT_TRUE(listEdits(surface, before, before).empty());
     SurfaceChoices after = before;
     after.baseColor.r = 0.0F;
-    after.roughness = 0.1F;
+    after.factors[1] = 0.1F;
     after.translation.y = -2.0F;
     const std::vector<Edit> edits = listEdits(surface, before, after);
     EXPECT_EQ(editOptions(edits),
@@ -47,6 +51,56 @@ TEST(SurfaceEdits, SayWhatDiffers)
     EXPECT_TRUE(listEdits({"a", 0, 0, std::nullopt, std::nullopt}, before, after).empty()) << "of what no file has";
     EXPECT_EQ(withEdit(edits, {"/nodes/3/translation", "[1,1,1]"}).size(), 3U);
     EXPECT_EQ(withEdit(edits, {edits[0].pointer, "[1,1,1,1]"}).back().value, "[1,1,1,1]");
+}
+
+TEST(SurfaceEdits, HideANode)
+{
+    const ChosenSurface surface{"a", 0, 0, "/nodes/3", std::nullopt};
+    SurfaceChoices after;
+    after.hides = true;
+    const std::vector<Edit> edits = listEdits(surface, {}, after);
+    EXPECT_EQ(editOptions(edits), " --set /nodes/3/extensions/KHR_node_visibility/visible=false");
+    EXPECT_TRUE(hides(edits[0]));
+    EXPECT_FALSE(hides({edits[0].pointer, "true"}));
+    EXPECT_FALSE(hides({"/materials/0/doubleSided", "false"}));
+}
+
+// A display's emission stays one; what lights the scene is given with its strength.
+TEST(SurfaceEdits, GiveTheEmissionOfDisplaysAndLamps)
+{
+    const ChosenSurface surface{"a", 0, 0, std::nullopt, "/materials/0"};
+    SurfaceChoices before, after;
+    after.emission = {1.0F, 0.5F, 0.0F};
+    EXPECT_EQ(editOptions(listEdits(surface, before, after)), " --set /materials/0/emissiveFactor=1,0.5,0");
+    before.hasStrength = after.hasStrength = true;
+    before.emissionStrength = after.emissionStrength = 4.0F;
+    const std::string strong = " --set /materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength=";
+    EXPECT_EQ(editOptions(listEdits(surface, before, after)), " --set /materials/0/emissiveFactor=1,0.5,0" + strong + "4");
+    before = after;
+    after.emissionStrength = 8.0F;
+    EXPECT_EQ(editOptions(listEdits(surface, before, after)), " --set /materials/0/emissiveFactor=1,0.5,0" + strong + "8");
+}
+
+// Each slider changes the property that it shows, of a material as the file's reader makes it.
+TEST(SurfaceEdits, FactorsAreThoseOfTheFile)
+{
+    test::GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangleMesh()}});
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.append("materials", {{"name", "paint"}});
+    const test::ScratchFolder folder;
+    test::writeText(folder / "paint.gltf", builder.toGltf());
+    for (std::size_t i = 0; i < kMaterialFactors.size(); ++i) {
+        SceneFile file(folder / "paint.gltf");
+        Scene scene = file.sceneAt(std::nullopt);
+        ChosenSurface surface{"paint", 0, 0, file.pointerToNode(0), file.pointerToMaterial(0)};
+        const SurfaceChoices before = choicesOf(surface, scene, file);
+        SurfaceChoices after = before;
+        after.factors[i] = 0.5F * (kMaterialFactors[i].least + kMaterialFactors[i].most) + 0.01F;
+        test::edit(file, listEdits(surface, before, after));
+        scene = file.sceneAt(std::nullopt);
+        EXPECT_EQ(choicesOf(surface, scene, file).factors, after.factors) << kMaterialFactors[i].name;
+    }
 }
 
 TEST(ScriptTest, ReadsEveryStep)

@@ -161,6 +161,13 @@ void enterScene(ScenePictures& pictures, const LoadOptions& options)
     pictures.enter(std::move(loaded));
 }
 
+void edit(ScenePictures& pictures, const std::vector<Edit>& edits)
+{
+    LoadOptions options;
+    options.edits = edits;
+    pictures.change(options, SplitRule::Sah);
+}
+
 // Other kernels, too: the walls get a coat, and one moves.
 TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
 {
@@ -180,13 +187,13 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     enterScene(pictures, {});
     const Film before = makeFilm(pictures);
     EXPECT_EQ(compiled, 1) << "at the start";
-    pictures.edit({edits[1]}, SplitRule::Sah);
+    edit(pictures, {edits[1]});
     makeFilm(pictures);
     EXPECT_EQ(compiled, 1) << "the same kernels serve it";
-    pictures.edit({}, SplitRule::Sah);
-    EXPECT_THROW(pictures.edit({{"/materials/99/alphaCutoff", "1"}}, SplitRule::Sah), InputError);
+    edit(pictures, {});
+    EXPECT_THROW(edit(pictures, {{"/materials/99/alphaCutoff", "1"}}), InputError);
     EXPECT_TRUE(sameBits(makeFilm(pictures), before));
-    pictures.edit(edits, SplitRule::Sah);
+    edit(pictures, edits);
     EXPECT_EQ(compiled, 2) << "a coat needs others";
     LoadOptions options;
     options.edits = edits;
@@ -194,7 +201,7 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     const Film after = makeFilm(pictures);
     EXPECT_TRUE(sameBits(after, makeFilm(edited)));
     EXPECT_FALSE(sameBits(after, before));
-    pictures.edit({}, SplitRule::Sah);
+    edit(pictures, {});
     EXPECT_TRUE(sameBits(makeFilm(pictures), before));
 }
 

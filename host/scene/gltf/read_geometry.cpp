@@ -246,7 +246,8 @@ std::size_t GeometryReader::useOf(std::size_t node, std::size_t mesh)
 void GeometryReader::readUses()
 {
     std::vector<ReadMeshes::Needs> needs = listNeeds(file_);
-    if (uses_ == read_.uses && needs == read_.needs) {
+    const std::array hasRadii{scene_.pointRadius.has_value(), scene_.lineRadius.has_value()};
+    if (uses_ == read_.uses && needs == read_.needs && file_.variant == read_.variant && hasRadii == read_.hasRadii) {
         return;
     }
     read_ = {};
@@ -255,7 +256,7 @@ void GeometryReader::readUses()
         std::vector<std::uint32_t>& ids = read_.meshesOf.emplace_back();
         for (Mesh& mesh : readMeshes(file_, use.mesh, use.pose, read_.warnings)) {
             if (mesh.isCloud) {
-                const bool isGiven = (mesh.lines.empty() ? scene_.pointRadius : scene_.lineRadius).has_value();
+                const bool isGiven = hasRadii[mesh.lines.empty() ? 0 : 1];
                 mesh.pointRadius = isGiven || mesh.pointRadius > 0.0 ? mesh.pointRadius : guessRadius(mesh);
             } else if (const std::optional<std::uint32_t> uvSet = needs[mesh.material].uvSetOfTangents) {
                 giveTangents(mesh, *uvSet, read_.warnings);
@@ -266,6 +267,8 @@ void GeometryReader::readUses()
     }
     read_.meshes = std::move(meshes);
     read_.needs = std::move(needs);
+    read_.variant = file_.variant;
+    read_.hasRadii = hasRadii;
     read_.uses = std::move(uses_);
 }
 

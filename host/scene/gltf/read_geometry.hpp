@@ -26,7 +26,9 @@ struct ReadMeshes {
     };
 
     std::vector<Use> uses;
-    std::vector<Needs> needs;  // by material of the file, then of the default one
+    std::vector<Needs> needs;             // by material of the file, then of the default one
+    std::optional<std::size_t> variant;   // whose materials the meshes have
+    std::array<bool, 2> hasRadii{false};  // whether all points and all lines have a radius that was chosen
     SharedVector<Mesh> meshes;
     std::vector<std::vector<std::uint32_t>> meshesOf;  // by use
     std::vector<std::array<glm::dvec3, 8>> corners;    // of a box around each mesh; empty until a scene with very many triangles asks
