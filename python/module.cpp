@@ -96,9 +96,7 @@ RenderJob jobOf(const nb::dict& values, std::string_view allowed = "")
     OptionTable table;
     addJobOptions(table, job);
     table.option("--output").require(false);
-    for (const auto& [name, value] : values) {
-        table.set(nb::cast<std::string>(name), valueOf(value));
-    }
+    table.setAll(valueOf(values));
     for (const char* name : kRefused) {
         if (name != allowed && table.isGiven(name)) {
             throw UsageError(MessageId::Unsupported, {part::place(name), ": is for the command line alone"});

@@ -59,8 +59,8 @@ void resolveBench(OptionTable& table, BenchOptions& options)
         throw UsageError(MessageId::Missing, {part::place("SCENE"), " is required"});
     }
     options.outputGiven = table.isGiven("--output");
-    options.words = table.wordsGiven({"--output", "--reference", "--make-reference", "--against", "--kernels", "--progress", "--seconds",
-                                      "--spp", "--seeds", "--seed", "--device"});
+    options.words = table.wordsGiven({"--edits", "--output", "--reference", "--make-reference", "--against", "--kernels", "--progress",
+                                      "--seconds", "--spp", "--seeds", "--seed", "--device"});
     // For resolveLight, which also refuses more light samples than can be counted.
     options.settings.sampleEnd = options.samples.value_or(kMinBenchSamples);
     resolveLight(table, options);

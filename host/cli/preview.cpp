@@ -58,8 +58,8 @@ void addPreview(CommandLine& line)
         "Mouse: left-drag orbits, middle-drag or shift-drag pans, the wheel moves closer, a click prints what is there.\n"
         "Keys: W A S D Q E fly, F frames the scene, R the file's camera, 1-9 its others, + - exposure, T next tone,\n"
         "V next layer, N denoises or not, K plays the animation, O focuses on the next click, Space pauses sampling,\n"
-        "P writes EXR and PNG, C prints camera, time and changes as options, F11 full screen, Esc quits.\n"
-        "H shows the controls, a list of keys, or the picture alone.\n"
+        "P writes EXR and PNG, C prints what is shown as options, J saves them as JSON for --edits, F11 full screen,\n"
+        "Esc quits, H shows the controls, a list of keys, or the picture alone.\n"
         "Exit codes: 0 done, 1 bad input or no display, 2 usage, 3 device.\n"
         "host/cli/README.md has more on every option.");
     command.onFinished([&command, options] {

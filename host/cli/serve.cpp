@@ -12,19 +12,12 @@ namespace {
 
 constexpr const char* kRequest = R"({"id": 1, "render": {"file": "scene.glb", "output": "out.exr", "spp": 64, "size": [640, 480]}})";
 
-void setOptions(OptionTable& table, const Json& options)
-{
-    for (const Json::Member& option : options.members()) {
-        table.set(option.name, option.value);
-    }
-}
-
 ExitCode render(RenderSession& session, const Json& options)
 {
     RenderJob job;
     OptionTable table;
     addJobOptions(table, job);
-    setOptions(table, options);
+    table.setAll(options);
     if (!table.isGiven("SCENE")) {
         throw UsageError(MessageId::Missing, {part::place("file"), " is required"});
     }
@@ -43,7 +36,7 @@ Json merge(const Json& options)
     OptionTable table;
     addMergeOptions(table, job);
     table.option("--output").require(false);
-    setOptions(table, options);
+    table.setAll(options);
     table.finish();
     return describe(carryOut(job));
 }

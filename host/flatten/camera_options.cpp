@@ -4,13 +4,9 @@
 
 #include <array>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace glim {
 namespace {
-
-using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
 std::string pointText(const glm::dvec3& v) { return exactText(v.x) + "," + exactText(v.y) + "," + exactText(v.z); }
 
@@ -23,7 +19,7 @@ std::string numbersText(std::span<const double> numbers)
     return text;
 }
 
-void addProjection(const Projection& projection, OptionValues& words)
+void addProjection(const Projection& projection, OptionTexts& words)
 {
     using Model = Projection::Model;
     const std::span<const double> distortion(projection.distortion);
@@ -48,9 +44,20 @@ void addProjection(const Projection& projection, OptionValues& words)
     }
 }
 
-OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
+}  // namespace
+
+std::string describeCamera(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
 {
-    OptionValues words;
+    std::string text;
+    for (const auto& [name, value] : cameraOptions(pose, field, lens, projection)) {
+        text += " " + name + "=" + value;
+    }
+    return text;
+}
+
+OptionTexts cameraOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
+{
+    OptionTexts words;
     if (pose) {
         words = {{"look-from", pointText(pose->from)}, {"look-at", pointText(pose->at)}, {"look-up", pointText(pose->up)}};
     }
@@ -66,27 +73,6 @@ OptionValues listOptions(const std::optional<Pose>& pose, const FieldOfView& fie
     }
     addProjection(projection, words);
     return words;
-}
-
-std::string join(const OptionValues& words, const char* before, const char* between)
-{
-    std::string text;
-    for (const auto& [name, value] : words) {
-        text += before + name + between + value;
-    }
-    return text;
-}
-
-}  // namespace
-
-std::string describeCamera(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
-{
-    return join(listOptions(pose, field, lens, projection), " ", "=");
-}
-
-std::string cameraOptions(const std::optional<Pose>& pose, const FieldOfView& field, const Lens& lens, const Projection& projection)
-{
-    return join(listOptions(pose, field, lens, projection), " --", " ");
 }
 
 }  // namespace glim

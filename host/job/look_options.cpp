@@ -39,7 +39,7 @@ void resolveOutput(std::optional<std::filesystem::path>& output, PictureFiles& f
 void resolvePictureFiles(const OptionTable& table, const PictureFiles& files)
 {
     for (const char* option : {"--exposure", "--tone"}) {
-        if (files.empty() && table.isGiven(option)) {
+        if (files.empty() && table.isGiven(option) && !table.isByFile(option)) {
             throw UsageError(MessageId::Requires, {part::place(option), ": ", part::quoted(table.toText(option)),
                                                    ": is of a picture; expected ", part::expected("--image"), " with it"});
         }

@@ -23,6 +23,29 @@ std::vector<std::string> splitText(const std::string& text, char separator)
 
 UsageError noSuchOption(const std::string& name) { return {MessageId::UnknownName, {part::quoted(name), ": there is no such option"}}; }
 
+UsageError aboutFile(const std::string& file, const Message& message)
+{
+    return UsageError(Message(message, {part::file(file), ": ", message.sentence}));
+}
+
+// What each value of the option is set to. null counts as left out.
+std::vector<OptionValue> toValues(const OptionTable::Entry& entry, const Json& value)
+{
+    std::vector<OptionValue> values;
+    if (value.isObject() && entry.takes == OptionTable::Entry::Takes::Each) {
+        for (const Json::Member& member : value.members()) {
+            values.emplace_back(member.name, member.value);
+        }
+    } else if (value.isArray() && entry.takes != OptionTable::Entry::Takes::One) {
+        for (const Json& element : value.elements()) {
+            values.emplace_back(element);
+        }
+    } else if (!value.isNull()) {
+        values.emplace_back(value);
+    }
+    return values;
+}
+
 }  // namespace
 
 OptionValue::OptionValue(std::string text)
@@ -244,6 +267,7 @@ void OptionTable::set(const std::string& name, const OptionValue& value)
         throw UsageError(MessageId::Duplicate, {part::place(entry.name()), ": is given twice"});
     }
     entry.take(value);
+    entry.isSet = true;
     if (!entry.isFlag() || value.text() == "true") {
         entry.given.push_back(value);
     }
@@ -252,21 +276,60 @@ void OptionTable::set(const std::string& name, const OptionValue& value)
 void OptionTable::set(const std::string& name, const Json& value)
 {
     const Entry& entry = entries_[findAnyIndex(name)];
-    if (value.isObject() && entry.takes == Entry::Takes::Each) {
-        for (const Json::Member& member : value.members()) {
-            set(entry.name(), OptionValue(member.name, member.value));
-        }
-    } else if (value.isArray() && entry.takes != Entry::Takes::One) {
-        for (const Json& element : value.elements()) {
-            set(entry.name(), OptionValue(element));
-        }
-    } else if (!value.isNull()) {
-        set(entry.name(), OptionValue(value));
+    for (const OptionValue& one : toValues(entry, value)) {
+        set(entry.name(), one);
     }
 }
 
-void OptionTable::finish() const
+void OptionTable::setAll(const Json& options)
 {
+    std::vector<std::pair<std::size_t, const Json::Member*>> ordered;
+    for (const Json::Member& option : options.members()) {
+        ordered.emplace_back(findAnyIndex(option.name), &option);
+    }
+    std::ranges::stable_sort(ordered, {}, [](const auto& option) { return option.first; });
+    for (const auto& [index, option] : ordered) {
+        set(option->name, option->value);
+    }
+}
+
+void OptionTable::setByFile(const std::string& file, const std::string& name, const Json& value)
+{
+    Entry& entry = entries_[findAnyIndex(name)];
+    for (const OptionValue& one : toValues(entry, value)) {
+        if (entry.takes != Entry::Takes::One) {
+            set(entry.name(), one);
+        } else if (entry.inFile) {
+            throw UsageError(MessageId::Duplicate, {part::place(entry.name()), ": is given twice"});
+        } else {
+            entry.inFile = {file, one};
+        }
+    }
+}
+
+void OptionTable::takeFromFile()
+{
+    const auto isOtherwise = [this](std::size_t index) { return !entries_[index].given.empty() && !entries_[index].isByFile; };
+    const auto isExcluded = [&](const Entry& entry) { return std::ranges::any_of(entry.excludes, isOtherwise); };
+    const auto isLost = [&](std::size_t index) {
+        return isExcluded(entries_[index]) && std::ranges::none_of(entries_[index].substitutes, isOtherwise);
+    };
+    for (Entry& entry : entries_) {
+        if (!entry.inFile || entry.isSet || isExcluded(entry) || std::ranges::any_of(entry.needs, isLost)) {
+            continue;
+        }
+        try {
+            set(entry.name(), entry.inFile->value);
+        } catch (const UsageError& error) {
+            throw aboutFile(entry.inFile->file, error.message());
+        }
+        entry.isByFile = true;
+    }
+}
+
+void OptionTable::finish()
+{
+    takeFromFile();
     const auto isMissing = [this](std::size_t index) { return entries_[index].given.empty(); };
     const auto isLacking = [&](std::size_t index) {
         return isMissing(index) && std::ranges::all_of(entries_[index].substitutes, isMissing);
@@ -278,6 +341,9 @@ void OptionTable::finish() const
         }
         return names;
     };
+    const auto refuse = [](const Entry& entry, MessageId id, std::initializer_list<MessagePart> words) {
+        throw entry.isByFile ? aboutFile(entry.inFile->file, Message(id, words)) : UsageError(id, words);
+    };
     for (const Entry& entry : entries_) {
         if (entry.isRequired && entry.given.empty()) {
             throw UsageError(MessageId::Missing, {part::place(entry.name()), " is required"});
@@ -286,11 +352,11 @@ void OptionTable::finish() const
             continue;
         }
         if (const auto lacks = std::ranges::find_if(entry.needs, isLacking); lacks != entry.needs.end()) {
-            throw UsageError(MessageId::Requires,
-                             {part::place(entry.name()), " requires ", part::expected(nameWithSubstitutes(entries_[*lacks]))});
+            refuse(entry, MessageId::Requires,
+                   {part::place(entry.name()), " requires ", part::expected(nameWithSubstitutes(entries_[*lacks]))});
         }
         if (const auto other = std::ranges::find_if_not(entry.excludes, isMissing); other != entry.excludes.end()) {
-            throw UsageError(MessageId::Conflict, {part::place(entry.name()), " excludes ", part::value(entries_[*other].name())});
+            refuse(entry, MessageId::Conflict, {part::place(entry.name()), " excludes ", part::value(entries_[*other].name())});
         }
     }
     if (check_) {

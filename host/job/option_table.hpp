@@ -84,6 +84,12 @@ public:
         bool isHidden = false, isRequired = false;
         std::vector<std::size_t> needs, excludes, substitutes;
         std::vector<OptionValue> given;
+        struct InFile {
+            std::string file;
+            OptionValue value;
+        };
+        std::optional<InFile> inFile;          // what a file says of an option that takes one value
+        bool isSet = false, isByFile = false;  // isByFile: what is given is what the file says
 
         bool isFlag() const { return unit.empty(); }
         bool isArgument() const { return names.back().front() != '-'; }
@@ -115,6 +121,7 @@ public:
 
     Option option(const std::string& name) { return {*this, indexOf(name)}; }
     bool isGiven(const std::string& name) const;  // false too if the table has no such option
+    bool isByFile(const std::string& name) const { return entries_[indexOf(name)].isByFile; }
     std::string toText(const std::string& name) const { return entries_[indexOf(name)].given.front().text(); }  // if it is given
 
     const std::vector<OptionValue>& valuesOf(const std::string& name) const { return entries_[indexOf(name)].given; }
@@ -129,8 +136,15 @@ public:
     void set(const std::string& name, const OptionValue& value);
     // null counts as left out; members of objects are set one by one, where an option may be given several times.
     void set(const std::string& name, const Json& value);
+    // Each member of an object, in the order of the table, as a command line does.
+    void setAll(const Json& options);
+    // What a file says. Options that take one value are taken by finish(), unless they are set otherwise, or excluded by an option that is,
+    // or need one that is; the file's name begins what finish() refuses of them. Values of the others precede those that are set later.
+    void setByFile(const std::string& file, const std::string& name, const Json& value);
     // To be called once after all options are set. Throws UsageError if some do not go together, or if a required one is missing.
-    void finish() const;
+    void finish();
+
+    const Entry& entry(const std::string& name) const { return entries_[findAnyIndex(name)]; }  // `name` as of set()
 
     const std::deque<Entry>& entries() const { return entries_; }
 
@@ -140,6 +154,7 @@ private:
     std::optional<std::size_t> find(const std::string& name) const;
     std::size_t indexOf(const std::string& name) const;       // throws UsageError
     std::size_t findAnyIndex(const std::string& name) const;  // the same; the name may be as programs have it
+    void takeFromFile();
 
     std::deque<Entry> entries_;
     std::string group_;

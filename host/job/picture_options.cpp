@@ -1,5 +1,6 @@
 #include "host/job/picture_options.hpp"
 
+#include "host/job/edits_file.hpp"
 #include "host/job/parse.hpp"
 #include "host/render/prepare_scene.hpp"
 
@@ -44,6 +45,7 @@ void addFloor(OptionTable& table, PictureOptions& options)
 
 void addPicture(OptionTable& table, PictureOptions& options, const std::string& height)
 {
+    addEdits(table);
     addSceneIndex(table, options.sceneIndex);
     table.addText("--variant", "NAME", "Variant of the file's materials [the file's own materials]", options.variant);
     addAnimation(table, options.at, options.animation);

@@ -36,6 +36,7 @@ struct Rule {
     bool (*excludedBy)(const Asked&);
     MessageId id;
     const char *why, *expected = "";  // {--view} stands for that option's value
+    bool isOfFiles = true;            // holds for what --edits says as well
 };
 
 bool isOfAov(const PictureOptions& picture) { return picture.settings.aov != Aov::Radiance; }
@@ -54,13 +55,14 @@ bool hasOneLightSample(const PictureOptions& picture)
 
 const Rule<PictureOptions> kPictureRules[] = {
     {{"--direct", "--light-samples", "--paths", "--roulette", "--clamp-indirect", "--adaptive", "--rates", "--suspects", "--target-rmse",
-      "--target-relmse", "--tone"},
+      "--target-relmse"},
      isOfAov,
      MessageId::Conflict,
      "has no effect with --view {--view}"},
+    {{"--tone"}, isOfAov, MessageId::Conflict, "has no effect with --view {--view}", "", false},
     {{"--bounces", "--caustics", "--guiding"}, isOfAovWithoutGuide, MessageId::Conflict, "has no effect with --view {--view}"},
     {{"--guiding"}, hasCourseEstimators, MessageId::Conflict, "the course's estimators have no guide; expected ", "none of them"},
-    {{"--exposure"}, isOfAovWithoutExposure, MessageId::Conflict, "has no effect with --view {--view}"},
+    {{"--exposure"}, isOfAovWithoutExposure, MessageId::Conflict, "has no effect with --view {--view}", "", false},
     {{"--tolerance", "--batch", "--max-spp"},
      isNotByCourse,
      MessageId::Requires,
@@ -145,7 +147,7 @@ void apply(std::span<const Rule<Asked>> rules, const OptionTable& table, const A
 {
     for (const Rule<Asked>& rule : rules) {
         for (const char* option : rule.options) {
-            if (table.isGiven(option) && rule.excludedBy(asked)) {
+            if (table.isGiven(option) && (rule.isOfFiles || !table.isByFile(option)) && rule.excludedBy(asked)) {
                 refuse(table, option, rule.id, {withValues(table, rule.why), part::expected(rule.expected)});
             }
         }

@@ -35,6 +35,8 @@ public:
     const std::vector<ErrorPoint>& errors() const { return errors_; }  // of the present picture
     const DisplayRange& range() const { return range_; }
     const Look& look() const { return look_; }
+    // What of it was set.
+    const LookOptions& options() const { return options_; }
     // Takes an exposure for this film, unless it was set.
     void expose(const Film& film, Aov aov);
 

@@ -38,7 +38,7 @@ constexpr HelpLine kHelp[] = {
     {"K", "play the animation, or pause it"},
     {"Space", "pause sampling"},
     {"P", "write PNG and EXR"},
-    {"C", "print camera and changes as options"},
+    {"C, J", "print what is shown as options, or save it as JSON"},
     {"H", "controls, these keys, nothing"},
     {"F11, Esc", "full screen or not, quit"},
 };

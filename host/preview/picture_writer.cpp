@@ -4,25 +4,14 @@
 #include "host/error.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
+#include "host/text.hpp"
 
+#include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
 namespace glim {
 namespace {
-
-std::string freeStem(const std::filesystem::path& scene)
-{
-    for (int number = 1;; ++number) {
-        char digits[16];
-        std::snprintf(digits, sizeof digits, "-%03d", number);
-        const std::string stem = scene.stem().string() + digits;
-        if (!std::filesystem::exists(stem + ".exr") && !std::filesystem::exists(stem + ".png")) {
-            return stem;
-        }
-    }
-}
 
 std::string writeBoth(const std::string& stem, const Film& film, Aov aov, const Look& look, const std::optional<DenoisedPicture>& denoised)
 {
@@ -48,7 +37,18 @@ void PictureWriter::write(const std::filesystem::path& scene, Film film, Aov aov
     if (writing_.valid()) {
         writing_.wait();
     }
-    writing_ = std::async(std::launch::async, writeBoth, freeStem(scene), std::move(film), aov, look, std::move(denoised));
+    writing_ =
+        std::async(std::launch::async, writeBoth, freeStem(scene, {".exr", ".png"}), std::move(film), aov, look, std::move(denoised));
+}
+
+std::string freeStem(const std::filesystem::path& scene, std::initializer_list<const char*> endings)
+{
+    for (int number = 1;; ++number) {
+        const std::string stem = scene.stem().string() + format("-%03d", number);
+        if (std::ranges::none_of(endings, [&stem](const char* ending) { return std::filesystem::exists(stem + ending); })) {
+            return stem;
+        }
+    }
 }
 
 std::optional<std::string> PictureWriter::takeReport(bool wait)

@@ -4,6 +4,7 @@
 #include "host/flatten/camera_options.hpp"
 #include "host/memory.hpp"
 #include "host/message.hpp"
+#include "host/preview/edits_writer.hpp"
 #include "host/preview/pick.hpp"
 #include "host/render/check_memory.hpp"
 #include "host/text.hpp"
@@ -442,7 +443,9 @@ void Session::pressForScene(char key)
             writes_ = true;
         }
     } else if (key == 'C') {
-        printCamera();
+        printOptions();
+    } else if (key == 'J') {
+        tell(writeEdits(options_.scene, listShownOptions(shown())));
     } else if (key == 'K') {
         play();
     } else if (key == 'O') {
@@ -554,12 +557,27 @@ void Session::clickAt(const glm::dvec2& position)
     say(there);
 }
 
-void Session::printCamera()
+// What the film is of that P writes.
+ShownPicture Session::shown() const
 {
-    const std::string options = "--camera " + std::to_string(viewpoint_->index()) +
-                                cameraOptions(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection) + " --size " +
-                                std::to_string(size().x) + "x" + std::to_string(size().y) + timeline_.options() +
-                                editOptions(changes_.options().edits);
+    LoadOptions load = changes_.options();
+    const Moment moment = timeline_.shown();
+    load.at = moment.seconds;
+    load.animation = moment.animation;
+    const bool isFramed = load.framed && viewpoint_->index() + 1 == viewpoint_->cameras().size();
+    return {load,
+            isFramed ? "framed" : std::to_string(viewpoint_->index()),
+            viewpoint_->moved(),
+            viewpoint_->field(),
+            lens_.lens(),
+            options_.projection,
+            size(),
+            meter_.options()};
+}
+
+void Session::printOptions()
+{
+    const std::string options = toCommandLine(listShownOptions(shown()));
     std::cout << options << '\n' << viewpoint_->describeAsGltf() << std::endl;
     say(options);
 }

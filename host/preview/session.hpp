@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/clock.hpp"
+#include "host/job/shown_options.hpp"
 #include "host/preview/film_meter.hpp"
 #include "host/preview/guide_inset.hpp"
 #include "host/preview/guide_learner.hpp"
@@ -79,7 +80,8 @@ private:
     void aimFocus();
     void focusOn(const std::optional<Pick>& found);
     void clickAt(const glm::dvec2& position);
-    void printCamera();
+    ShownPicture shown() const;
+    void printOptions();
     void renewSurface();
     void undo();
     void writePictures();

@@ -96,15 +96,4 @@ std::vector<Edit> withEdit(std::vector<Edit> edits, const Edit& edit)
     return edits;
 }
 
-std::string editOptions(const std::vector<Edit>& edits)
-{
-    std::string options;
-    for (const Edit& edit : edits) {
-        std::string value = edit.value;
-        std::erase_if(value, [](char c) { return c == '[' || c == ']'; });  // which shells would read
-        options += " --set " + edit.pointer + "=" + value;
-    }
-    return options;
-}
-
 }  // namespace glim

@@ -69,7 +69,5 @@ bool hides(const Edit& edit);
 // `edits` with another one, in place of that of the same pointer.
 std::vector<Edit> withEdit(std::vector<Edit> edits, const Edit& edit);
 
-// As options of `glim render`: " --set /materials/0/alphaCutoff=0.5 ...".
-std::string editOptions(const std::vector<Edit>& edits);
 
 }  // namespace glim

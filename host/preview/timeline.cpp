@@ -1,7 +1,6 @@
 #include "host/preview/timeline.hpp"
 
 #include "host/scene/load_gltf.hpp"
-#include "host/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,12 +61,9 @@ void Timeline::advance(Time now)
     setSeconds(!ends ? next : choices_.plays ? std::fmod(next, duration()) : duration());
 }
 
-std::string Timeline::options() const
+Moment Timeline::shown() const
 {
-    if (!moment_.seconds) {
-        return "";
-    }
-    return " --at " + exactText(*moment_.seconds) + (animations_.size() > 1 ? " --animation " + std::to_string(choices_.animation) : "");
+    return {animations_.size() > 1 ? std::to_string(choices_.animation) : moment_.animation, moment_.seconds};
 }
 
 void Timeline::setSeconds(std::optional<double> seconds) { moment_.seconds = choices_.seconds = seconds; }

@@ -46,8 +46,8 @@ public:
     void rest(const Moment& moment);
     // Plays from the time of the last call until `now`.
     void advance(Time now);
-    // As options of `glim render`: " --at 1.5 --animation 2"; empty in the rest pose.
-    std::string options() const;
+    // The same with the animation's index, if there are several.
+    Moment shown() const;
 
 private:
     double duration() const { return animations_[choices_.animation].duration; }

@@ -160,7 +160,7 @@ TEST(ViewpointTest, IsTheFilesCameraUntilItMoves)
     expectNear(viewpoint.pose().at, {1, 0, 0});
     viewpoint.move(fly(viewpoint.pose(), {0, 0, 1}));
     EXPECT_EQ(viewpoint.camera({4, 3}).position, glm::vec3(1, 0, 9));
-    EXPECT_EQ(cameraOptions(viewpoint.moved(), {}, {}), " --look-from 1,0,9 --look-at 1,0,-1 --look-up 0,1,0");
+    EXPECT_EQ(cameraOptions(viewpoint.moved(), {}, {}), (OptionTexts{{"look-from", "1,0,9"}, {"look-at", "1,0,-1"}, {"look-up", "0,1,0"}}));
     EXPECT_FALSE(viewpoint.choose(2));
     EXPECT_TRUE(viewpoint.choose(1));
     EXPECT_FALSE(viewpoint.moved());
@@ -242,12 +242,15 @@ TEST(ViewpointTest, HasAProjection)
 
 TEST(ViewOptionsTest, AreExact)
 {
-    EXPECT_EQ(cameraOptions(std::nullopt, {}, {}), "");
-    EXPECT_EQ(cameraOptions(std::nullopt, {35.5, 2.0}, {}), " --fov 35.5 --zoom 2");
+    EXPECT_EQ(cameraOptions(std::nullopt, {}, {}), OptionTexts());
+    EXPECT_EQ(cameraOptions(std::nullopt, {35.5, 2.0}, {}), (OptionTexts{{"fov", "35.5"}, {"zoom", "2"}}));
     const Pose pose{{0.1, 1e-7, -3}, {1.0 / 3.0, 0, 0}, {0, 0, 1}, 2.5};
-    EXPECT_EQ(cameraOptions(pose, {}, {0.1F, 3.0F}),
-              " --look-from 0.1,1e-07,-3 --look-at 0.3333333333333333,0,0 --look-up 0,0,1 --zoom 2.5"
-              " --lens-radius 0.1 --focal-distance 3");
+    EXPECT_EQ(cameraOptions(pose, {}, {0.1F, 3.0F}), (OptionTexts{{"look-from", "0.1,1e-07,-3"},
+                                                                  {"look-at", "0.3333333333333333,0,0"},
+                                                                  {"look-up", "0,0,1"},
+                                                                  {"zoom", "2.5"},
+                                                                  {"lens-radius", "0.1"},
+                                                                  {"focal-distance", "3"}}));
     EXPECT_EQ(describeCamera(pose, {}, {}), " look-from=0.1,1e-07,-3 look-at=0.3333333333333333,0,0 look-up=0,0,1 zoom=2.5");
     const Projection lens{Projection::Model::Fisheye, Intrinsics{{600.5, 601}, {320, 240}, {640, 480}}, {0.1, 0}, {0.25, 0, 0, -1}};
     EXPECT_EQ(describeCamera(std::nullopt, {}, {}, lens), " intrinsics=600.5,601,320,240 shift=0.1,0 fisheye=0.25,0,0,-1");

@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kStandsOn{
     {"main.cpp", {"cli"}},
     {"cli", {"job", "preview", "view", "bench"}},
     {"job", {"denoise"}},
-    {"preview", {"denoise", "window"}},
+    {"preview", {"job", "window"}},
     {"view", {"measure", "window"}},
     {"window", {"render"}},
     {"bench", {"measure"}},

@@ -151,5 +151,51 @@ TEST_F(OptionTableTest, WhatDoesNotGoTogetherIsRefused)
     EXPECT_EQ(table_.wordsGiven({"--time"}), (std::vector<std::string>{"--size=8x8", "--spp=4"}));
 }
 
+// As of --edits.
+TEST_F(OptionTableTest, WhatIsSetOtherwisePrecedesAFile)
+{
+    const auto setByFile = [this](const std::string& name, const std::string& json) { table_.setByFile("f", name, *Json::parse(json)); };
+    setByFile("size", "[8, 8]");
+    setByFile("spp", "4");
+    setByFile("back_faces", "true");
+    setByFile("confine", "true");
+    set("time", "2");
+    set("size", R"("9x9")");
+    set("confine", "false");
+    set("file", R"("a.gltf")");
+    table_.finish();
+    EXPECT_EQ(size_, glm::uvec2(9, 9));
+    EXPECT_EQ(spp_, 0U) << "is excluded";
+    EXPECT_EQ(choice_, 1U);
+    EXPECT_FALSE(confined_);
+    EXPECT_TRUE(table_.isByFile("--back-faces"));
+    EXPECT_FALSE(table_.isByFile("--size"));
+    EXPECT_EQ(table_.wordsGiven({}), (std::vector<std::string>{"--size=9x9", "--time=2", "--back-faces=true"}));
+}
+
+TEST_F(OptionTableTest, SentencesNameTheFile)
+{
+    set("file", R"("a.gltf")");
+    table_.setByFile("f", "spp", 0);
+    expectRefusal<UsageError>([this] { table_.finish(); }, MessageId::OutOfRange, {.file = "f", .place = "--spp", .value = "0"});
+    Options other;
+    other.set("file", R"("a.gltf")");
+    other.table_.setByFile("f", "spp", 4);
+    expectRefusal<UsageError>([&] { other.table_.finish(); }, MessageId::Requires, {.file = "f", .place = "--spp", .expected = "--size"});
+    expectRefusal<UsageError>([&] { other.table_.setByFile("f", "spp", 5); }, MessageId::Duplicate, {.place = "--spp"});
+}
+
+// The order of a program's members means nothing.
+TEST_F(OptionTableTest, MembersAreSetInTheOrderOfTheTable)
+{
+    table_.setAll(*Json::parse(R"({"confine": true, "size": [8, 8], "file": "a", "spp": 3})"));
+    EXPECT_TRUE(confined_ && spp_ == 3U && file_ == "a");
+    Options other;
+    expectRefusal<UsageError>([&] { other.table_.setAll(*Json::parse(R"({"spp": 0, "size": 1})")); }, MessageId::Malformed,
+                              {.place = "--size"});
+    expectRefusal<UsageError>([&] { other.table_.setAll(*Json::parse(R"({"spp": 0, "spq": 1})")); }, MessageId::UnknownName,
+                              {.value = "spq"});
+}
+
 }  // namespace
 }  // namespace glim

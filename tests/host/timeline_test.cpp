@@ -18,7 +18,7 @@ TEST(TimelineTest, PlaysRoundAndRound)
     const Timeline::Time start = Timeline::Time::clock::now();
     timeline.advance(start);
     EXPECT_FALSE(timeline.moment().seconds) << "the rest pose stays";
-    EXPECT_EQ(timeline.options(), "");
+    EXPECT_EQ(timeline.shown().seconds, std::nullopt);
     timeline.toggle(start);
     EXPECT_EQ(timeline.moment().seconds, 0.0);
     timeline.advance(start + 500ms);
@@ -42,7 +42,7 @@ TEST(TimelineTest, EndsWithTheAnimation)
 {
     Timeline timeline({"run", 0.25});
     timeline.enter(kTwo);
-    EXPECT_EQ(timeline.options(), " --at 0.25 --animation 1");
+    EXPECT_EQ(timeline.shown(), (Moment{"1", 0.25}));
     const Timeline::Time start = Timeline::Time::clock::now();
     TimeChoices wanted = timeline.choices();
     wanted.loops = false;
@@ -65,17 +65,17 @@ TEST(TimelineTest, RestsAtATimeThatIsChosen)
     wanted.seconds = 1.5;
     timeline.choose(wanted, start);
     EXPECT_FALSE(timeline.isPlaying());
-    EXPECT_EQ(timeline.options(), " --at 1.5 --animation 0");
+    EXPECT_EQ(timeline.shown(), (Moment{"0", 1.5}));
     wanted = timeline.choices();
     wanted.animation = 1;
     timeline.choose(wanted, start);
     EXPECT_EQ(timeline.moment(), (Moment{"1", 0.0}));
     timeline.rest({"walk", 0.5});
-    EXPECT_EQ(timeline.options(), " --at 0.5 --animation 0");
+    EXPECT_EQ(timeline.shown(), (Moment{"0", 0.5}));
     wanted = timeline.choices();
     wanted.seconds.reset();
     timeline.choose(wanted, start);
-    EXPECT_EQ(timeline.options(), "") << "the rest pose";
+    EXPECT_FALSE(timeline.shown().seconds) << "the rest pose";
 }
 
 TEST(TimelineTest, HasOnlyWhatLasts)
@@ -86,7 +86,7 @@ TEST(TimelineTest, HasOnlyWhatLasts)
     timeline.enter({kTwo[0]});
     EXPECT_FALSE(timeline.isEmpty());
     timeline.toggle(Timeline::Time::clock::now());
-    EXPECT_EQ(timeline.options(), " --at 0") << "there is one animation";
+    EXPECT_EQ(timeline.shown(), (Moment{"", 0.0})) << "there is one animation";
     timeline.enter({});
     EXPECT_FALSE(timeline.isPlaying()) << "the file has changed";
 }

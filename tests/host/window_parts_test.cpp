@@ -45,9 +45,9 @@ TEST(SurfaceEdits, SayWhatDiffers)
     after.factors[1] = 0.1F;
     after.translation.y = -2.0F;
     const std::vector<Edit> edits = listEdits(surface, before, after);
-    EXPECT_EQ(editOptions(edits),
-              " --set b.glb#/materials/1/pbrMetallicRoughness/baseColorFactor=0,0.5,0.25,0.75 --set "
-              "b.glb#/materials/1/pbrMetallicRoughness/roughnessFactor=0.1 --set /nodes/3/translation=0,-2,0");
+    EXPECT_EQ(edits, (std::vector<Edit>{{"b.glb#/materials/1/pbrMetallicRoughness/baseColorFactor", "[0,0.5,0.25,0.75]"},
+                                        {"b.glb#/materials/1/pbrMetallicRoughness/roughnessFactor", "0.1"},
+                                        {"/nodes/3/translation", "[0,-2,0]"}}));
     EXPECT_TRUE(listEdits({"a", 0, 0, std::nullopt, std::nullopt}, before, after).empty()) << "of what no file has";
     EXPECT_EQ(withEdit(edits, {"/nodes/3/translation", "[1,1,1]"}).size(), 3U);
     EXPECT_EQ(withEdit(edits, {edits[0].pointer, "[1,1,1,1]"}).back().value, "[1,1,1,1]");
@@ -59,7 +59,7 @@ TEST(SurfaceEdits, HideANode)
     SurfaceChoices after;
     after.hides = true;
     const std::vector<Edit> edits = listEdits(surface, {}, after);
-    EXPECT_EQ(editOptions(edits), " --set /nodes/3/extensions/KHR_node_visibility/visible=false");
+    EXPECT_EQ(edits, (std::vector<Edit>{{"/nodes/3/extensions/KHR_node_visibility/visible", "false"}}));
     EXPECT_TRUE(hides(edits[0]));
     EXPECT_FALSE(hides({edits[0].pointer, "true"}));
     EXPECT_FALSE(hides({"/materials/0/doubleSided", "false"}));
@@ -71,14 +71,15 @@ TEST(SurfaceEdits, GiveTheEmissionOfDisplaysAndLamps)
     const ChosenSurface surface{"a", 0, 0, std::nullopt, "/materials/0"};
     SurfaceChoices before, after;
     after.emission = {1.0F, 0.5F, 0.0F};
-    EXPECT_EQ(editOptions(listEdits(surface, before, after)), " --set /materials/0/emissiveFactor=1,0.5,0");
+    const Edit color{"/materials/0/emissiveFactor", "[1,0.5,0]"};
+    const std::string strength = "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength";
+    EXPECT_EQ(listEdits(surface, before, after), std::vector{color});
     before.hasStrength = after.hasStrength = true;
     before.emissionStrength = after.emissionStrength = 4.0F;
-    const std::string strong = " --set /materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength=";
-    EXPECT_EQ(editOptions(listEdits(surface, before, after)), " --set /materials/0/emissiveFactor=1,0.5,0" + strong + "4");
+    EXPECT_EQ(listEdits(surface, before, after), (std::vector<Edit>{color, {strength, "4"}}));
     before = after;
     after.emissionStrength = 8.0F;
-    EXPECT_EQ(editOptions(listEdits(surface, before, after)), " --set /materials/0/emissiveFactor=1,0.5,0" + strong + "8");
+    EXPECT_EQ(listEdits(surface, before, after), (std::vector<Edit>{color, {strength, "8"}}));
 }
 
 // Each slider changes the property that it shows, of a material as the file's reader makes it.

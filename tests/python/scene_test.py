@@ -517,6 +517,20 @@ class OptionsTest(PythonCase):
         self.assertNotIn("output", hints)
         self.assertNotIn("turntable", hints)
 
+    def test_options_of_a_file(self):
+        edits = {"set": {"/nodes/ball/translation": [0, .5, 0]}, "sun": [30, 45, 2], "camera": "above"}
+        with open(self.path("edits.json"), "w", encoding="utf-8") as file:
+            json.dump(edits, file)
+        expected = glim.render(LAMP, **edits, **SMALL)
+        self.assertEqual(glim.render(LAMP, edits=self.path("edits.json"), **SMALL).digest, expected.digest)
+        color = {"/materials/1/pbrMetallicRoughness/baseColorFactor": (0, 0, 1, 1)}
+        expected = glim.render(LAMP, **{**edits, "set": {**edits["set"], **color}, "sun": (0, 90, 1)}, **SMALL)
+        self.assertEqual(glim.render(LAMP, set=color, sun=(0, 90, 1), edits=self.path("edits.json"), **SMALL).digest, expected.digest)
+        with open(self.path("edits.json"), "w", encoding="utf-8") as file:
+            json.dump({"spp": 4}, file)
+        with self.assertRaisesRegex(glim.InputError, "edits.json: spp: is not of what is shown; expected an option of scene, camera"):
+            glim.render(LAMP, edits=self.path("edits.json"), **SMALL)
+
     def test_version(self):
         with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as file:
             self.assertEqual(glim.__version__, re.search(r"project\(glim VERSION ([0-9.]+)", file.read())[1])

@@ -51,7 +51,7 @@ protected:
         more.insert(more.end(), {"--spp", "2", "--environment", "1,1,1"});
         return run("0 samples 2\n" + script + "0 close\n", more);
     }
-    Film renderAt(const std::string& options) const { return render("--spp 2 --environment 1,1,1 " + options); }
+    Film renderAt(const std::string& options) const { return render("--spp 2 " + options); }
 };
 
 // From the rest pose.
@@ -60,12 +60,12 @@ TEST_F(PreviewTimeTest, KeyPlaysAndPauses)
     const GlimRun session = play("0 key C\n0 key P\n0 key K\n0.3 key K\n0.3 samples 2\n0 key C\n0 key P\n");
     const std::vector<std::string> options = printedOptions(session);
     ASSERT_EQ(options.size(), 2U) << session.out;
-    EXPECT_EQ(options[0], "--camera 0 --size 96x72");
+    EXPECT_EQ(options[0], "--camera 0 --size 96x72 --environment 1,1,1");
     const double at = numberAfter("--at", options[1]);
     EXPECT_GT(at, 0.02);
     EXPECT_LT(at, 1.0);
     EXPECT_TRUE(options[1].ends_with(" --animation 0")) << options[1];
-    const Film rest = renderAt(""), posed = renderAt(options[1]);
+    const Film rest = renderAt(options[0]), posed = renderAt(options[1]);
     EXPECT_TRUE(sameBits(film(1), rest));
     EXPECT_TRUE(sameBits(film(2), posed));
     EXPECT_EQ(film(2).identity.settings, posed.identity.settings);
@@ -76,14 +76,13 @@ TEST_F(PreviewTimeTest, KeyPlaysAndPauses)
 // P pauses as well: otherwise there would be no whole picture.
 TEST_F(PreviewTimeTest, WritesThePictureOfTheTimeWhenItPlays)
 {
-    const std::string one = "--spp 1 --environment 1,1,1 ";
     const GlimRun session = run("0 samples 1\n0 key K\n0.3 key P\n0 key C\n0 close\n",
                                 {"--spp", "1", "--environment", "1,1,1", "--at", "0.25", "--animation", "turn"});
     const std::vector<std::string> options = printedOptions(session);
     ASSERT_EQ(options.size(), 1U) << session.out;
     EXPECT_GT(numberAfter("--at", options[0]), 0.25);
     EXPECT_TRUE(options[0].ends_with(" --animation 1")) << options[0];
-    const Film made = film(1), posed = render(one + options[0]);
+    const Film made = film(1), posed = render("--spp 1 " + options[0]);
     EXPECT_TRUE(sameBits(made, posed));
 }
 
@@ -146,7 +145,7 @@ TEST_F(PreviewTimeTest, ThePanelChoosesAnimationAndTime)
     EXPECT_NEAR(numberAfter("--at", options[1]), 0.5, 0.1);
     EXPECT_TRUE(sameBits(film(1), renderAt(options[1])));
     EXPECT_TRUE(options[2].ends_with(" --at 1 --animation 1")) << options[2];
-    EXPECT_EQ(options[3], "--camera 0 --size 640x480") << "the rest pose";
+    EXPECT_EQ(options[3], "--camera 0 --size 640x480 --environment 1,1,1") << "the rest pose";
 }
 
 TEST_F(PreviewTest, WithoutAnAnimationNothingPlays)

@@ -256,9 +256,9 @@ class CommandTest(unittest.TestCase):
             self.assertEqual(caught.exception.code, 2, more)
             self.assertIn(words, "".join(call.args[0] for call in stderr.write.call_args_list))
         options = parse_arguments(good + ["--size", "8x8", "--look-from", "-1,2,3", "--confine", "--set=/a/b=1", "--add", "b.glb@1,2,3",
-                                           "--set", "/c=d"])
+                                           "--set", "/c=d", "--edits", "e.json"])
         self.assertEqual((options.job, options.spp), ({"file": options.scene, "size": "8x8", "look-from": "-1,2,3", "confine": True,
-                                                       "set": ["/a/b=1", "/c=d"], "add": ["b.glb@1,2,3"]}, 4))
+                                                       "set": ["/a/b=1", "/c=d"], "add": ["b.glb@1,2,3"], "edits": "e.json"}, 4))
 
     def test_no_commands_from_a_network_without_tls(self):
         for value, words in (("tcp://10.0.0.1:8786", "--insecure"), ("tcp://127.0.0.1:8786", "--insecure"),
