@@ -10,6 +10,9 @@ from glim._elements import FileCamera
 class RenderOptions(TypedDict, total=False):
     """Keyword arguments of glim.load, glim.render and Scene.render; `glim render --help-all` lists them."""
 
+    edits: Union[str, "os.PathLike[str]"]
+    """Options of scene, camera, time and look from a file; those given here come first"""
+
     scene: int
     """Scene of the file, 0 to 4294967295 [the file's default scene]"""
 
