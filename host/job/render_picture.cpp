@@ -26,9 +26,7 @@ void PictureFrame::setGuide(LearnedGuide learned)
 PictureFrame framePicture(SceneSession& session, const RenderJob& options)
 {
     const Camera camera = makeCamera(session.prepared().scene, options);
-    RenderSettings settings = settingsFor(options, camera);
-    settings.catcher = catches(session.prepared().flat, settings);
-    settings.halves = settings.halves && !settings.catcher;
+    RenderSettings settings = catchingSettings(session.prepared().flat, settingsFor(options, camera));
     if (keepsGroups(session.prepared().flat, settings)) {
         settings.lightGroups = session.prepared().scene.lightGroups;
     }

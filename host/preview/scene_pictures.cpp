@@ -1,6 +1,7 @@
 #include "host/preview/scene_pictures.hpp"
 
 #include "host/error.hpp"
+#include "host/render/parameters.hpp"
 
 #include <utility>
 
@@ -9,7 +10,7 @@ namespace glim {
 void ScenePictures::enter(std::unique_ptr<LoadedScene> loaded)
 {
     beforeCompiling_();
-    auto light = std::make_unique<Refiner>(device_, loaded->prepared, settings_, lens_);
+    auto light = std::make_unique<Refiner>(device_, loaded->prepared, catchingSettings(loaded->prepared.flat, settings_), lens_);
     leaveOthers();
     light_ = std::move(light);
     loaded_ = std::move(loaded);
@@ -19,6 +20,13 @@ void ScenePictures::change(const LoadOptions& options, SplitRule split)
 {
     changeScene(loaded_->prepared, loaded_->file, options, split);
     leaveOthers();
+    const RenderSettings wanted = catchingSettings(loaded_->prepared.flat, settings_);
+    if (wanted.catcher != settings().catcher) {
+        beforeCompiling_();
+        light_.reset();  // so that no two scenes are on the device
+        light_ = std::make_unique<Refiner>(device_, loaded_->prepared, wanted, lens_);
+        return;
+    }
     if (light_->needsKernels()) {
         beforeCompiling_();
     }
@@ -80,7 +88,7 @@ void ScenePictures::guide(std::shared_ptr<const Guide> guide, const Camera& came
     if (!guided_) {
         beforeCompiling_();
     }
-    RenderSettings settings = settings_;
+    RenderSettings settings = catchingSettings(loaded_->prepared.flat, settings_);
     settings.guide = std::move(guide);
     guided_ = std::make_unique<Refiner>(guided_ ? *guided_ : *light_, loaded_->prepared, settings);
     guided_->showWhole(camera, size);

@@ -31,6 +31,8 @@ public:
     void setLens(const Lens& lens);
     const Lens& lens() const { return lens_; }
     bool isEmpty() const { return light_ == nullptr; }
+    // Those of the picture of light.
+    const RenderSettings& settings() const { return light_->renderer().settings(); }
     const PreparedScene& scene() const { return loaded_->prepared; }
     const SceneFile& file() const { return loaded_->file; }
     const LoadOptions& options() const { return loaded_->file.options(); }

@@ -7,6 +7,7 @@
 #include "host/preview/edits_writer.hpp"
 #include "host/preview/pick.hpp"
 #include "host/render/check_memory.hpp"
+#include "host/render/parameters.hpp"
 #include "host/text.hpp"
 #include "host/window/widgets.hpp"
 
@@ -123,7 +124,7 @@ void Session::takeScene()
 void Session::enter(std::unique_ptr<LoadedScene> loaded)
 {
     const PreparedScene& prepared = loaded->prepared;
-    RenderSettings settings = options_.settings;
+    RenderSettings settings = catchingSettings(prepared.flat, options_.settings);
     settings.width = size().x;
     settings.height = size().y;
     checkMemory(prepared, settings, screen_.device().description());
@@ -275,7 +276,7 @@ bool Session::work()
         return true;
     }
     const auto shouldContinue = [this] { return !isInputWaiting(); };
-    const bool denoises = denoises_ && options_.settings.halves && pictures_.layer() == Aov::Radiance;
+    const bool denoises = denoises_ && pictures_.settings().halves && pictures_.layer() == Aov::Radiance;
     const bool worked =
         (denoises && denoiser_.work(pictures_.shown(), shouldContinue)) || pictures_.shown().refine(paused_, shouldContinue);
     if (worked) {
@@ -586,7 +587,7 @@ void Session::writePictures()
 {
     Film film = pictures_.shown().renderer().film();
     film.sceneFile = options_.scene.string();
-    film.showsBackground = changes_.options().environmentBackground;
+    film.showsBackground = changes_.options().environmentBackground && film.catcher.empty();
     film.identity.settings += describeCamera(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection);
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);

@@ -131,7 +131,7 @@ PanelFigures Session::figures() const
                     : pictures_.isGuided()                     ? "guided"
                                                                : "";
     figures.errors = meter_.errors();
-    figures.canDenoise = options_.settings.halves;
+    figures.canDenoise = pictures_.settings().halves;
     figures.denoising = denoises_ ? describe(denoiser_) : std::vector<std::string>{};
     figures.size = size();
     figures.scale = picture.scale();

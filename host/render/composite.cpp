@@ -1,5 +1,6 @@
 #include "host/render/composite.hpp"
 
+#include "shaders/shared/composite.h"
 #include "shaders/shared/luminance.h"
 
 #include <algorithm>
@@ -7,25 +8,6 @@
 #include <limits>
 
 namespace glim {
-namespace {
-
-// Y(L_1) / Y(L_0).
-double clearness(const CatcherMoments& catcher)
-{
-    const double without = computeLuminance(glm::dvec3(catcher.without));
-    return without > 0.0 ? computeLuminance(glm::dvec3(catcher.with)) / without : 1.0;
-}
-
-}  // namespace
-
-PixelMoments compositePixel(const PixelMoments& shown, const CatcherMoments& catcher)
-{
-    const double clear = std::clamp(clearness(catcher), 0.0, 1.0);
-    PixelMoments pixel = shown;
-    pixel.mean = glm::vec3(glm::dvec3(shown.mean) - clear * glm::dvec3(catcher.without));
-    pixel.alpha = static_cast<float>(static_cast<double>(shown.alpha) - clear * static_cast<double>(catcher.share));
-    return pixel;
-}
 
 std::vector<PixelMoments> pictureOf(const Film& film)
 {
@@ -46,7 +28,7 @@ double computeAlphaError(const PixelMoments& pixel, const CatcherMoments& catche
         return 0.0;
     }
     // The ratio's error is that of L_1 - r L_0, over L_0, and cov(a, b) = (var a + var b - var(a - b)) / 2.
-    const double r = clearness(catcher), with2 = catcher.squares.x, without2 = catcher.squares.y, difference2 = catcher.squares.z;
+    const double r = computeClearness(catcher), with2 = catcher.squares.x, without2 = catcher.squares.y, difference2 = catcher.squares.z;
     const double squares = with2 + r * r * without2 - r * (with2 + without2 - difference2);
     const double variance = std::max(squares, 0.0) / ((pixel.blocks - 1.0) * catcher.count);
     return static_cast<double>(catcher.share) * std::sqrt(variance) / without;

@@ -13,7 +13,11 @@ constexpr std::uint32_t kWorkgroup = 256;
 
 std::vector<BindingSlot> slots()
 {
-    return {{kBindBlocks, BufferKind::Storage}, {kBindPages, BufferKind::Storage}, {kBindFolded, BufferKind::Storage}};
+    std::vector<BindingSlot> slots;
+    for (const std::uint32_t binding : {kBindBlocks, kBindPages, kBindCatchers, kBindFolded, kBindFoldedCatchers}) {
+        slots.push_back({binding, BufferKind::Storage});
+    }
+    return slots;
 }
 
 }  // namespace
@@ -25,14 +29,15 @@ Display::Display(Device& device)
 
 void Display::resize(std::uint32_t width, std::uint32_t height) { picture_.emplace(device_, "window's picture", width, height); }
 
-const Kernel& Display::getPreview(Aov aov, bool folded)
+const Kernel& Display::getPreview(Aov aov, bool folded, bool composites)
 {
-    const auto found = previews_.find({aov, folded});
+    const auto found = previews_.find({aov, folded, composites});
     if (found != previews_.end()) {
         return found->second;
     }
-    const Specialization constants = {{kSpecWorkgroup, kWorkgroup}, {kSpecAov, static_cast<std::uint32_t>(aov)}, {kSpecFolded, folded}};
-    return previews_.emplace(std::pair(aov, folded), Kernel(layout_, kernels::preview, constants)).first->second;
+    Specialization constants = makeConstants(composites ? kFeatureCatcher : 0);
+    constants.insert({{kSpecWorkgroup, kWorkgroup}, {kSpecAov, static_cast<std::uint32_t>(aov)}, {kSpecFolded, folded}});
+    return previews_.emplace(std::tuple(aov, folded, composites), Kernel(layout_, kernels::preview, constants)).first->second;
 }
 
 void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads)
@@ -52,10 +57,18 @@ void Display::takeFolded(const Renderer& renderer)
     }
     foldVersion_ = renderer.films().foldVersion();
     folded_.clear();
+    const FilmMoments& film = renderer.films().folded();
     for (const auto& tile : renderer.films().tiles()) {
-        const std::span<const PixelMoments> pixels = std::span(renderer.films().folded().pixels).subspan(tile->begin(), tile->count());
-        folded_.push_back(std::make_unique<Buffer>(device_, "film's folded pages", BufferKind::Storage, pixels.size_bytes()));
-        upload(*folded_.back(), pixels);
+        const auto take = [&](const char* name, const auto& moments) {
+            const std::span part = std::span(moments).subspan(tile->begin(), tile->count());
+            Buffer buffer(device_, name, BufferKind::Storage, part.size_bytes());
+            upload(buffer, part);
+            return buffer;
+        };
+        folded_.push_back({take("film's folded pages", film.pixels), std::nullopt});
+        if (!film.catcher.empty()) {
+            folded_.back().catchers.emplace(take("folded shadow catchers", film.catcher));
+        }
     }
 }
 
@@ -71,15 +84,22 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
     pass.tone = static_cast<std::uint32_t>(look.tone);
     pass.low = range.low;
     pass.high = range.high;
-    const bool anyFolded = renderer.films().foldVersion() != 0;
+    const bool anyFolded = renderer.films().foldVersion() != 0, composites = aov == Aov::Radiance && renderer.settings().catcher;
     for (std::size_t i = 0; i < renderer.films().tiles().size(); ++i) {
         const Tile& tile = *renderer.films().tiles()[i];
-        const Buffer& folded = anyFolded ? *folded_[i] : tile.pages();  // a placeholder that the kernel does not read
-        const Bindings bindings(layout_, {{kBindBlocks, &tile.blocks()}, {kBindPages, &tile.pages()}, {kBindFolded, &folded}},
+        // Where there is nothing, a placeholder that the kernel does not read.
+        const Buffer& folded = anyFolded ? folded_[i].pixels : tile.pages();
+        const Buffer& foldedCatchers = anyFolded && composites ? *folded_[i].catchers : tile.catchers();
+        const Bindings bindings(layout_,
+                                {{kBindBlocks, &tile.blocks()},
+                                 {kBindPages, &tile.pages()},
+                                 {kBindCatchers, &tile.catchers()},
+                                 {kBindFolded, &folded},
+                                 {kBindFoldedCatchers, &foldedCatchers}},
                                 {{kBindPicture, &*picture_}});
         pass.tileBegin = tile.begin();
         pass.tileCount = tile.count();
-        run(getPreview(aov, anyFolded), bindings, pass, tile.count());
+        run(getPreview(aov, anyFolded, composites), bindings, pass, tile.count());
     }
 }
 

@@ -1,7 +1,7 @@
 #include "host/render/film_layers.hpp"
 
 #include "host/error.hpp"
-#include "host/render/composite.hpp"
+#include "shaders/shared/composite.h"
 #include "shaders/shared/scene_types.h"
 
 #include <cmath>

@@ -19,7 +19,7 @@ std::vector<Color> draw(const Film& film, Aov aov, const Look& look,
 {
     const DisplayRange range = computeRange(film, aov);
     std::vector<Color> colors;
-    for (const PixelMoments& pixel : pictureOf(film)) {
+    for (const PixelMoments& pixel : aov == Aov::Radiance ? pictureOf(film) : shownPixels(film)) {
         colors.push_back(display(pixel, aov, range, look));
     }
     return colors;

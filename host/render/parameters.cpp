@@ -45,6 +45,13 @@ bool catches(const FlatScene& scene, const RenderSettings& settings)
     return (scene.features & kFeatureCatcher) != 0 && keepsMore(settings);
 }
 
+RenderSettings catchingSettings(const FlatScene& scene, RenderSettings settings)
+{
+    settings.catcher = catches(scene, settings);
+    settings.halves = settings.halves && !settings.catcher;
+    return settings;
+}
+
 float splatScale(const FlatScene& scene)
 {
     if (!(scene.brightness > 0.0F) || !std::isfinite(scene.brightness)) {

@@ -23,6 +23,8 @@ bool keepsGroups(const FlatScene& scene, const RenderSettings& settings);
 
 // Whether a film can keep what the scene's shadow catchers show (RenderSettings::catcher): not of the course's estimators, nor of AOVs.
 bool catches(const FlatScene& scene, const RenderSettings& settings);
+// These settings, with shadow catchers if the scene has any. Its film is not denoised then, and needs no halves.
+RenderSettings catchingSettings(const FlatScene& scene, RenderSettings settings);
 
 // Units of a splat per W/(sr m^2). A pixel holds 2^32 times the radiance that the scene's brightest light gives a white surface, in steps
 // of 2^-32 of it.

@@ -97,6 +97,7 @@ public:
     const Bindings& bindings(std::uint32_t parity) const { return parity == 0 ? *even_ : *odd_; }
     const Buffer& blocks() const { return blocks_; }
     const Buffer& pages() const { return pages_; }
+    const Buffer& catchers() const { return catchers_; }
     // One per pixel if the render's settings ask for suspects.
     const Buffer& brightest() const { return brightest_; }
 

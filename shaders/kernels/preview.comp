@@ -16,7 +16,7 @@ uvec2 computeCorner(uvec2 film)
 
 void drawPixel(uint pixel)
 {
-    PixelMoments moments = computePixelMoments(pixel);
+    PixelMoments moments = computeShownMoments(pixel);
     if (moments.count == 0u) {
         return;
     }

@@ -57,8 +57,9 @@ GLIM_CONST uint kBindNote = 24u;
 GLIM_CONST uint kBindStatus = 18u;
 // course/: the parameters of the course's estimators
 GLIM_CONST uint kBindCourseParameters = 33u;
-// display.glsl, with blocks and pages
+// display.glsl, with blocks, pages and catchers
 GLIM_CONST uint kBindFolded = 26u;
+GLIM_CONST uint kBindFoldedCatchers = 27u;
 GLIM_CONST uint kBindPicture = 28u;
 // view.glsl, with the picture
 GLIM_CONST uint kBindViewed = 54u;

@@ -161,6 +161,15 @@ void enterScene(ScenePictures& pictures, const LoadOptions& options)
     pictures.enter(std::move(loaded));
 }
 
+Film filmOf(ScenePictures& pictures)
+{
+    pictures.show(pictures.scene().scene.cameras.front(), {8, 6});
+    while (pictures.shown().sampleCount() == 0 || !pictures.shown().isDone()) {
+        pictures.shown().refine(false, nullptr);
+    }
+    return pictures.shown().renderer().film();
+}
+
 void edit(ScenePictures& pictures, const std::vector<Edit>& edits)
 {
     LoadOptions options;
@@ -175,34 +184,55 @@ TEST(ScenePicturesTest, AnEditShowsTheSceneThatItMakes)
     settings.sampleEnd = 2;
     const std::vector<Edit> edits{{"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", "1"},
                                   {"/nodes/4/translation", "[0.125, 0, 0]"}};
-    const auto makeFilm = [](ScenePictures& pictures) {
-        pictures.show(pictures.scene().scene.cameras.front(), {8, 6});
-        while (pictures.shown().sampleCount() == 0 || !pictures.shown().isDone()) {
-            pictures.shown().refine(false, nullptr);
-        }
-        return pictures.shown().renderer().film();
-    };
     int compiled = 0;
     ScenePictures pictures(testDevice(), settings, {}, [&compiled] { ++compiled; }), edited(testDevice(), settings, {}, [] {});
     enterScene(pictures, {});
-    const Film before = makeFilm(pictures);
+    const Film before = filmOf(pictures);
     EXPECT_EQ(compiled, 1) << "at the start";
     edit(pictures, {edits[1]});
-    makeFilm(pictures);
+    filmOf(pictures);
     EXPECT_EQ(compiled, 1) << "the same kernels serve it";
     edit(pictures, {});
     EXPECT_THROW(edit(pictures, {{"/materials/99/alphaCutoff", "1"}}), InputError);
-    EXPECT_TRUE(sameBits(makeFilm(pictures), before));
+    EXPECT_TRUE(sameBits(filmOf(pictures), before));
     edit(pictures, edits);
     EXPECT_EQ(compiled, 2) << "a coat needs others";
     LoadOptions options;
     options.edits = edits;
     enterScene(edited, options);
-    const Film after = makeFilm(pictures);
-    EXPECT_TRUE(sameBits(after, makeFilm(edited)));
+    const Film after = filmOf(pictures);
+    EXPECT_TRUE(sameBits(after, filmOf(edited)));
     EXPECT_FALSE(sameBits(after, before));
     edit(pictures, {});
-    EXPECT_TRUE(sameBits(makeFilm(pictures), before));
+    EXPECT_TRUE(sameBits(filmOf(pictures), before));
+}
+
+TEST(ScenePicturesTest, AnEditMakesACatcher)
+{
+    RenderSettings settings;
+    settings.sampleEnd = 2;
+    settings.halves = true;
+    const std::vector<Edit> edits{{"/materials/0/extras/shadowCatcher", "true"}};
+    int compiled = 0;
+    ScenePictures pictures(testDevice(), settings, {}, [&compiled] { ++compiled; }), catching(testDevice(), settings, {}, [] {});
+    enterScene(pictures, {});
+    const Film before = filmOf(pictures);
+    EXPECT_TRUE(before.catcher.empty());
+    edit(pictures, edits);
+    const Film after = filmOf(pictures);
+    EXPECT_EQ(compiled, 2) << "kernels that follow two paths";
+    EXPECT_EQ(after.catcher.size(), after.pixels.size());
+    EXPECT_FALSE(pictures.settings().halves);
+    LoadOptions options;
+    options.catchers = {"white"};
+    enterScene(catching, options);
+    EXPECT_TRUE(sameBits(after, filmOf(catching)));
+    edit(pictures, edits);
+    filmOf(pictures);
+    EXPECT_EQ(compiled, 2);
+    edit(pictures, {});
+    EXPECT_TRUE(sameBits(filmOf(pictures), before));
+    EXPECT_TRUE(pictures.settings().halves);
 }
 
 // One second after the last move, at the latest with the second page of samples. N shows the noisy picture again, and a move ends it.

@@ -1,5 +1,6 @@
 // A render in steps, from one camera after the other, gives the films of whole renders. A window shows them as files do.
 #include "host/flatten/flatten_scene.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/display.hpp"
 #include "host/render/ray_tracer.hpp"
 #include "shaders/shared/bindings.h"
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -196,6 +198,35 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
             std::vector<Rgb8> expected;
             for (const PixelMoments& pixel : film.pixels) {
                 expected.push_back(displayColor(pixel, aov, range, {0.5, Tone::Neutral}));
+            }
+            EXPECT_LE(largestDifference(shownBy(display), expected), 1) << "aov " << static_cast<int>(aov) << ", " << samples;
+        }
+    }
+}
+
+// Of light; in other layers they are surfaces like others.
+TEST_F(StepsTest, AWindowShowsTheCompositeOfShadowCatchers)
+{
+    Scene caught = scene;
+    caught.materials.front().isCatcher = true;
+    const FlatScene flatCaught = flattened(caught);
+    settings.catcher = true;
+    Display display(testDevice());
+    display.resize(24, 24);
+    for (const std::uint32_t samples : {1U, 40U, 290U}) {
+        settings.sampleEnd = samples;
+        Renderer renderer(testDevice(), flatCaught, makeCamera(caught, settings), settings);
+        while (renderer.advance()) {
+        }
+        const Film film = renderer.film();
+        const std::vector<PixelMoments> picture = pictureOf(film);
+        EXPECT_GT(std::ranges::count_if(picture, [](const PixelMoments& pixel) { return pixel.alpha < 0.5F; }), 50) << samples;
+        for (const Aov aov : {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo}) {
+            const DisplayRange range = computeRange(film, aov);
+            display.draw(renderer, aov, range, {0.5, Tone::None});
+            std::vector<Rgb8> expected;
+            for (const PixelMoments& pixel : aov == Aov::Radiance ? picture : film.pixels) {
+                expected.push_back(displayColor(pixel, aov, range, {0.5, Tone::None}));
             }
             EXPECT_LE(largestDifference(shownBy(display), expected), 1) << "aov " << static_cast<int>(aov) << ", " << samples;
         }
