@@ -276,7 +276,7 @@ bool Session::work()
         return true;
     }
     const auto shouldContinue = [this] { return !isInputWaiting(); };
-    const bool denoises = denoises_ && pictures_.settings().halves && pictures_.layer() == Aov::Radiance;
+    const bool denoises = denoises_ && options_.settings.halves && pictures_.layer() == Aov::Radiance;
     const bool worked =
         (denoises && denoiser_.work(pictures_.shown(), shouldContinue)) || pictures_.shown().refine(paused_, shouldContinue);
     if (worked) {
