@@ -7,8 +7,13 @@
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
+# Of a preview with --shaders as well (host/preview/compile_shader.cpp).
+set(GLIM_GLSL_OPTIONS --quiet -V --target-env vulkan1.2)
+list(JOIN GLIM_GLSL_OPTIONS "\", \"" quotedOptions)
+file(CONFIGURE OUTPUT generated/glsl_options.h CONTENT "#define GLIM_GLSL_OPTIONS \"${quotedOptions}\"\n")
+
 add_executable(mark_floats ${CMAKE_CURRENT_LIST_DIR}/mark_floats.cpp ${PROJECT_SOURCE_DIR}/host/spirv/builder.cpp
-    ${PROJECT_SOURCE_DIR}/host/spirv/expand.cpp ${PROJECT_SOURCE_DIR}/host/spirv/module.cpp)
+    ${PROJECT_SOURCE_DIR}/host/spirv/expand.cpp ${PROJECT_SOURCE_DIR}/host/spirv/mark.cpp ${PROJECT_SOURCE_DIR}/host/spirv/module.cpp)
 target_include_directories(mark_floats PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(mark_floats PRIVATE SPIRV-Tools)
 
@@ -26,7 +31,7 @@ function(glim_embed_shaders target)
         # The depfile names the .plain file, and Ninja believes a depfile only if it names the first output.
         add_custom_command(
             OUTPUT ${spirv}.plain ${spirv}
-            COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR}/shaders
+            COMMAND ${GLSLANG_VALIDATOR} ${GLIM_GLSL_OPTIONS} -I${PROJECT_SOURCE_DIR}/shaders
                     -I${PROJECT_SOURCE_DIR}/tests/support --depfile ${spirv}.d -o ${spirv}.plain ${source}
             COMMAND mark_floats ${spirv}.plain ${spirv}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spirv}

@@ -3,6 +3,7 @@
 #include "host/job/parse.hpp"
 #include "host/job/picture_options.hpp"
 #include "host/job/resolve_options.hpp"
+#include "host/preview/compile_shader.hpp"
 
 #include <memory>
 
@@ -11,7 +12,7 @@ namespace {
 
 struct WindowOptions : PictureOptions {
     std::optional<std::uint64_t> frames;
-    std::optional<std::filesystem::path> script;
+    std::optional<std::filesystem::path> script, shaders;
 };
 
 void addWindow(OptionTable& table, WindowOptions& options)
@@ -21,6 +22,7 @@ void addWindow(OptionTable& table, WindowOptions& options)
     addNumber<std::uint32_t>(table, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
                              [&options](std::uint32_t frames) { options.frames = frames; });
     table.addPath("--script", "FILE", "Replay the input that this file lists", options.script);
+    table.addPath("--shaders", "DIR", "Kernels from this copy of glim's shaders/, compiled again when they change", options.shaders);
 }
 
 // Without a limit the picture is refined until the window closes.
@@ -65,6 +67,9 @@ void addPreview(CommandLine& line)
     command.onFinished([&command, options] {
         resolvePicture(command, *options);
         resolveEnd(command, options->settings);
+        if (options->shaders) {
+            requireShaders(*options->shaders);
+        }
         options->settings.halves = options->settings.adaptive == Adaptive::Off;
         options->settings.caustics = false;  // their light would come in blocks of samples, seconds late
         if (options->settings.schedule == Schedule::Auto) {
@@ -74,7 +79,7 @@ void addPreview(CommandLine& line)
     command.onRun([options] {
         preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->camera, options->device, options->pose,
                  options->field, options->projection, options->lens, options->look, options->settings,
-                 options->guiding == GuidingChoice::On, options->frames, options->script});
+                 options->guiding == GuidingChoice::On, options->frames, options->script, options->shaders});
         return ExitCode::Done;
     });
 }

@@ -1,5 +1,7 @@
 #include "host/gpu/kernel.hpp"
 
+#include "host/gpu/replaced_kernels.hpp"
+
 #include <algorithm>
 
 namespace glim {
@@ -133,7 +135,7 @@ Kernel::Kernel(const KernelLayout& layout, const EmbeddedShader& shader, const S
     info.stage.module = module.get();
     info.stage.pName = "main";
     info.layout = layout.pipelineLayout();
-    const VkPipelineCache cache = layout.device().pipelines().handle();
+    const VkPipelineCache cache = findReplaced(shader) ? VK_NULL_HANDLE : layout.device().pipelines().handle();
     check(vkCreateComputePipelines(device, cache, 1, &info, nullptr, pipeline_.receive()), "compile kernel " + name_);
     layout.device().setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline_.get()), name_);
 }

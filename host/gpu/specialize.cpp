@@ -3,6 +3,7 @@
 #include "host/digest.hpp"
 #include "host/gpu/cache_file.hpp"
 #include "host/gpu/device.hpp"
+#include "host/gpu/replaced_kernels.hpp"
 #include "host/text.hpp"
 #include "specializer.h"
 
@@ -89,6 +90,9 @@ std::vector<std::uint32_t> readOrMake(const EmbeddedShader& shader, const Specia
 
 std::vector<std::uint32_t> specialize(const EmbeddedShader& shader, const Specialization& specialization, const Arithmetic& arithmetic)
 {
+    if (const auto replaced = findReplaced(shader)) {
+        return make({shader.name, replaced->data(), replaced->data() + replaced->size()}, specialization, arithmetic);
+    }
     static std::mutex mutex;
     static std::map<std::tuple<const std::uint32_t*, Specialization, Arithmetic>, std::vector<std::uint32_t>>
         known;  // .2 s of CPU a render

@@ -85,11 +85,12 @@ std::optional<Message> findOther(const Film& film, const SceneSession& session, 
     Film expected = emptyFilm(frame.settings);
     expected.identity = makeIdentity(SceneIdentity(session.prepared().flat), frame.camera, frame.settings);
     labelFilm(expected, options, frame);
-    if (film.identity.kernels != expected.identity.kernels) {
+    const std::optional<Message> difference = findDifference(film, expected);
+    if (!difference && film.identity.kernels != expected.identity.kernels) {
         return Message(MessageId::Mismatch, {"it is by another version of glim's ", part::place("kernels"),
                                              "; `glim merge` adds samples that this one renders"});
     }
-    return findDifference(film, expected);
+    return difference;
 }
 
 void resumeFrom(Renderer& renderer, StoredFilm stored, const MessagePart& name)

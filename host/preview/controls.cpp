@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPole = 0.002;    // radians: the least angle between the view direction and the vertical
 constexpr double kNotch = 0.9;     // the share of the distance that is left after a notch of the wheel
-constexpr double kNearest = 1e-7;  // relative to the distance from the origin: below it `from` and `at` might round to one point
+constexpr double kClosest = 1e-7;  // relative to the distance from the origin: below it `from` and `at` might round to one point
 
 struct Axes {
     glm::dvec3 right, up, forward;
@@ -64,7 +64,7 @@ Pose dolly(const Pose& pose, double notches, Camera::Kind kind)
         return moved;
     }
     const glm::dvec3 back = pose.from - pose.at;
-    const double nearest = kNearest * std::max(glm::length(pose.at), glm::length(pose.from));
+    const double nearest = kClosest * std::max(glm::length(pose.at), glm::length(pose.from));
     const double distance = std::max(nearest, factor * glm::length(back));
     moved.from = pose.at + distance * glm::normalize(back);
     return moved;

@@ -19,6 +19,12 @@ public:
     // Looks again if the guide is another one than before, or the pixel, of a window of this size; absent: the mouse has not been there.
     void look(Refiner& picture, const PreparedScene& prepared, Picker& picker, const std::optional<glm::uvec2>& pixel,
               const glm::uvec2& size);
+    // Kernels have changed.
+    void renew()
+    {
+        probe_.reset();
+        guide_.reset();
+    }
     // Absent if there is nothing to show; why() says why.
     const std::optional<GuideMap>& map() const { return map_; }
     const std::string& why() const { return why_; }

@@ -22,6 +22,12 @@ void IdleDenoiser::restart()
     isStale_ = measuring_.valid();
 }
 
+void IdleDenoiser::renew()
+{
+    restart();
+    nlMeans_.reset();
+}
+
 bool IdleDenoiser::begin(Refiner& refiner)
 {
     const FilmHalves* halves = refiner.keepHalves() ? refiner.renderer().films().halves() : nullptr;

@@ -20,6 +20,8 @@ public:
 
     // Forgets the picture: another one begins.
     void restart();
+    // Kernels have changed. The picture begins anew.
+    void renew();
     // Works for about 100 ms, but ends earlier once `shouldContinue` returns false. Begins when both halves of the samples tell their
     // variance, and again whenever the smaller half has doubled or the picture is done. Returns false if there is nothing to do.
     bool work(Refiner& refiner, const std::function<bool()>& shouldContinue);

@@ -174,7 +174,7 @@ LensChoices changeLens(float widest, LensChoices choices)
 std::vector<std::string> PanelMessages::lines() const
 {
     std::vector<std::string> lines;
-    for (const std::string& line : {stage, trouble, notice.text()}) {
+    for (const std::string& line : {stage, trouble, shaders, notice.text()}) {
         if (!line.empty() && std::ranges::find(lines, line) == lines.end()) {
             lines.push_back(line);
         }

@@ -64,6 +64,7 @@ struct PanelChoices {
 struct PanelMessages {
     std::string stage;    // of the scene that is being loaded; empty if none is
     std::string trouble;  // why the present file is not shown; empty if it is
+    std::string shaders;  // the same of the present shaders
     Notice notice;
 
     // Those that there are, each once.

@@ -11,6 +11,14 @@ void PictureDrawer::resize(const glm::uvec2& size)
     isDenoised_ = false;
 }
 
+void PictureDrawer::renew()
+{
+    display_.renew();
+    painter_.reset();
+    painted_ = 0;
+    isDenoised_ = false;
+}
+
 void PictureDrawer::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look)
 {
     display_.draw(renderer, aov, range, look);

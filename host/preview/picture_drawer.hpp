@@ -21,6 +21,8 @@ public:
     void resize(const glm::uvec2& size);
     glm::uvec2 size() const { return {display_.width(), display_.height()}; }
 
+    // Kernels have changed.
+    void renew();
     void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);
     void draw(const IdleDenoiser::Result& denoised, const Look& look);
     // What was drawn last.

@@ -28,6 +28,7 @@ struct PreviewOptions {
     bool guiding = false;                 // by a guide that is learned for each view that rests
     std::optional<std::uint64_t> frames;  // ends after this many pictures
     std::optional<std::filesystem::path> script;
+    std::optional<std::filesystem::path> shaders;  // a folder of kernels in place of glim's own
 };
 
 // Runs until the user or the script closes the window, or until all frames are shown. Throws InputError if there is no display or the

@@ -16,38 +16,22 @@ SceneLoader::SceneLoader(std::filesystem::path file, LoadOptions options, SplitR
       files_{file_},
       options_(options),
       split_(split),
-      lastRead_(std::chrono::steady_clock::now())
+      watch_(kStampInterval, readStamps())
 {
     begin();
-    seen_ = loaded_;
 }
 
-std::vector<SceneLoader::Stamp> SceneLoader::readStamps() const
+SceneLoader::Stamps SceneLoader::readStamps() const
 {
-    std::vector<Stamp> stamps;
+    Stamps stamps;
     for (const std::filesystem::path& file : files_) {
-        std::error_code missing;
-        stamps.push_back({std::filesystem::last_write_time(file, missing), 0});
-        if (missing) {
+        const std::optional<FileStamp> stamp = readStamp(file);
+        if (!stamp) {
             return {};
         }
-        if (std::filesystem::is_regular_file(file, missing)) {
-            stamps.back().size = std::filesystem::file_size(file, missing);
-        }
+        stamps.push_back(*stamp);
     }
     return stamps;
-}
-
-// Whether the files have changed and then stayed the same for one interval: a program may still write them.
-bool SceneLoader::hasChanged()
-{
-    const auto now = std::chrono::steady_clock::now();
-    if (now - lastRead_ < kStampInterval) {
-        return false;
-    }
-    lastRead_ = now;
-    const std::vector<Stamp> before = std::exchange(seen_, readStamps());
-    return seen_ == before && seen_ != loaded_ && !seen_.empty();
 }
 
 void SceneLoader::begin()
@@ -70,7 +54,7 @@ void SceneLoader::begin()
 std::unique_ptr<LoadedScene> SceneLoader::take()
 {
     if (!loading_.valid()) {
-        if (hasChanged()) {
+        if (watch_.hasChanged(loaded_, [this] { return readStamps(); }) && !watch_.seen().empty()) {
             begin();
         }
         return nullptr;
@@ -98,11 +82,11 @@ void SceneLoader::watch(const std::vector<std::filesystem::path>& files)
     if (files == files_) {
         return;
     }
-    const std::vector<Stamp> before = std::exchange(loaded_, {});
+    const Stamps before = std::exchange(loaded_, {});
     files_ = files;
     loaded_ = readStamps();
-    for (Stamp& stamp : loaded_) {
-        stamp = stamp.time < began_ ? stamp : Stamp{};
+    for (FileStamp& stamp : loaded_) {
+        stamp = stamp.time < began_ ? stamp : FileStamp{};
     }
     if (!before.empty() && !loaded_.empty()) {
         loaded_.front() = before.front();  // the glTF file, whose stamp was read before

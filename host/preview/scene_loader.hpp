@@ -1,6 +1,7 @@
 // Loads the scene in a thread of its own, and loads it again whenever one of its files changes.
 #pragma once
 
+#include "host/preview/stamps.hpp"
 #include "host/render/prepare_scene.hpp"
 
 #include <atomic>
@@ -34,14 +35,9 @@ public:
     std::string stage() const;
 
 private:
-    struct Stamp {
-        std::filesystem::file_time_type time;
-        std::uintmax_t size = 0;
-        bool operator==(const Stamp&) const = default;
-    };
-    // The stamp of each file. Empty while a file is missing, as it is for a moment when some editors save.
-    std::vector<Stamp> readStamps() const;
-    bool hasChanged();
+    using Stamps = std::vector<FileStamp>;
+    // The stamp of each file. Empty while a file is missing.
+    Stamps readStamps() const;
     void begin();
     void watch(const std::vector<std::filesystem::path>& files);
 
@@ -49,9 +45,9 @@ private:
     std::vector<std::filesystem::path> files_;  // that the scene was read from; the glTF file is the first
     LoadOptions options_;
     SplitRule split_;
-    std::vector<Stamp> loaded_, seen_;       // the stamps when loading began, and those read last
+    Stamps loaded_;  // the stamps when loading began
+    StampWatch<Stamps> watch_;
     std::filesystem::file_time_type began_;  // when the last loading began
-    std::chrono::steady_clock::time_point lastRead_;
     std::atomic<bool> ended_ = false;
     mutable std::mutex mutex_;
     std::string stage_;

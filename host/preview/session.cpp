@@ -42,6 +42,9 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       guideInset_(screen_.device())
 {
     drawer_.resize(glm::max(glm::uvec2(1), window.pictureSize()));
+    if (options.shaders) {
+        shaders_.emplace(*options.shaders);
+    }
 }
 
 void Session::run()
@@ -50,6 +53,9 @@ void Session::run()
         const bool isWorking = !pictures_.isEmpty() && work();
         takeEvents(isWorking || movesItself() || pacer_.isChanged() || !inbox_.empty() ? 0.0 : kIdleSeconds);
         takeScene();
+        if (shaders_ && !pictures_.isEmpty()) {
+            takeShaders();
+        }
         if (const auto report = writer_.takeReport(false)) {
             tell(*report);
         }
@@ -117,6 +123,32 @@ void Session::takeScene()
         messages_.stage = stage;
         window_.setTitle("glim: " + (stage.empty() ? options_.scene.filename().string() : stage));
         pacer_.change();
+    }
+}
+
+// What does not compile changes nothing.
+void Session::takeShaders()
+{
+    if (shaders_->take()) {
+        learner_.end();
+        try {
+            show();
+            tell("the kernels of " + options_.shaders->string() + " have changed, and the picture begins anew");
+        } catch (const DeviceError& error) {
+            shaders_->refuse(error.what());
+            show();
+        }
+        drawer_.renew();
+        denoiser_.renew();
+        guideInset_.renew();
+    }
+    if (const std::string& trouble = shaders_->trouble(); trouble != messages_.shaders) {
+        messages_.shaders = trouble;
+        if (trouble.empty()) {
+            pacer_.change();
+        } else {
+            tell(trouble);
+        }
     }
 }
 
@@ -589,6 +621,9 @@ void Session::writePictures()
     film.sceneFile = options_.scene.string();
     film.showsBackground = changes_.options().environmentBackground && film.catcher.empty();
     film.identity.settings += describeCamera(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection);
+    if (shaders_) {
+        shaders_->label(film.identity);
+    }
     if (const auto report = writer_.takeReport(true)) {
         tell(*report);
     }

@@ -17,6 +17,7 @@
 #include "host/preview/scene_changes.hpp"
 #include "host/preview/scene_loader.hpp"
 #include "host/preview/scene_pictures.hpp"
+#include "host/preview/shader_loader.hpp"
 #include "host/preview/timeline.hpp"
 #include "host/preview/viewpoint.hpp"
 #include "host/window/gestures.hpp"
@@ -53,6 +54,7 @@ private:
     // The loop.
     void takeEvents(double seconds);
     void takeScene();
+    void takeShaders();
     void enter(std::unique_ptr<LoadedScene> loaded);
     void resize();
     void step();
@@ -102,6 +104,7 @@ private:
     Screen screen_;
     PictureDrawer drawer_;
     SceneLoader loader_;
+    std::optional<ShaderLoader> shaders_;
     PictureWriter writer_;
 
     ScenePictures pictures_;

@@ -19,6 +19,8 @@ public:
 
     // Sets the picture's size. It is black until something is drawn.
     void resize(std::uint32_t width, std::uint32_t height);
+    // Kernels have changed.
+    void renew() { previews_.clear(); }
 
     // Draws the renderer's film so far, stretched over the picture. Its light is composited if it has shadow catchers.
     void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);

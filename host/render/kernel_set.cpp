@@ -1,6 +1,7 @@
 #include "host/render/kernel_set.hpp"
 
 #include "host/flatten/large_triangles.hpp"
+#include "host/gpu/replaced_kernels.hpp"
 #include "host/render/course.hpp"
 #include "host/render/parameters.hpp"
 #include "kernels.hpp"
@@ -12,6 +13,9 @@
 
 namespace glim {
 namespace {
+
+// No kernel has a constant with this id.
+constexpr std::uint32_t kSpecReplaced = 0xffffffff;
 
 std::uint32_t directOf(DirectLight direct)
 {
@@ -70,6 +74,9 @@ Specialization specialize(const FlatScene& scene, const FlatCamera& camera, cons
     constexpr std::size_t kSharedBytes = 16384;  // that every device has
     const std::size_t stackBytes = 2 * sizeof(std::uint32_t) * scene.stackLevels * settings.workgroup;
     constants[kSpecSharedStack] = rulesOf(device.deviceClass).sharedStack && stackBytes <= kSharedBytes;
+    if (const std::uint32_t version = replacedVersion(); version != 0) {
+        constants[kSpecReplaced] = version;  // kernels of other shaders do not serve
+    }
     return constants;
 }
 

@@ -82,9 +82,12 @@ void RenderResources::adapt(const FlatScene& scene, const FlatCamera& camera)
     if (serves(kernels().specialization, needed)) {
         return;
     }
+    const bool isNew = !spare || !serves(spare->set.specialization, needed);
+    if (isNew) {
+        spare = compile(scene, camera);  // may throw
+    }
     std::swap(compiled, spare);
-    if (!compiled || !serves(kernels().specialization, needed)) {
-        compiled = compile(scene, camera);
+    if (isNew) {
         runOnce();
     }
 }

@@ -29,7 +29,9 @@ enum Opcode : std::uint32_t {
     kOpFunction = 54,
     kOpFunctionEnd = 56,
     kOpFunctionCall = 57,
+    kOpVariable = 59,
     kOpDecorate = 71,
+    kOpMemberDecorate = 72,
     kOpCompositeConstruct = 80,
     kOpCompositeExtract = 81,
     kOpConvertFToU = 109,
@@ -121,6 +123,9 @@ public:
     std::span<const Instruction> findFunction(std::string_view name) const;
     // The type, constant, variable or import with this id.
     const Instruction& global(Id id) const;
+    std::span<const Instruction> globals() const { return globals_; }
+    // From capabilities to decorations.
+    std::span<const Instruction> preamble() const { return preamble_; }
 
     std::vector<Instruction> functions;  // their bodies, in order
 
@@ -129,10 +134,10 @@ private:
 
     Words header_;
     std::uint32_t bound_ = 0;
-    std::vector<Instruction> preamble_;  // from capabilities to decorations
-    std::vector<Instruction> globals_;   // types, constants, variables
-    std::unordered_map<Id, Id> types_;   // by result
-    std::map<Words, Id> known_;          // types, constants and imports by their words with 0 for the result
+    std::vector<Instruction> preamble_;
+    std::vector<Instruction> globals_;  // types, constants, variables
+    std::unordered_map<Id, Id> types_;  // by result
+    std::map<Words, Id> known_;         // types, constants and imports by their words with 0 for the result
 };
 
 }  // namespace glim::spirv

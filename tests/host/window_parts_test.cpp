@@ -248,7 +248,8 @@ TEST(PanelMessagesTest, AreShownOnce)
     messages.trouble = "a.gltf: broken";
     messages.notice.show(messages.trouble);
     messages.stage = "loading a.gltf";
-    EXPECT_EQ(messages.lines(), (std::vector<std::string>{"loading a.gltf", "a.gltf: broken"}));
+    messages.shaders = "a.glsl:1: error: broken";
+    EXPECT_EQ(messages.lines(), (std::vector<std::string>{"loading a.gltf", "a.gltf: broken", "a.glsl:1: error: broken"}));
 }
 
 // The panels that ImGui lays out in a window of this size.

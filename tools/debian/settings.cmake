@@ -32,5 +32,5 @@ gives the same bits for the same scene, seed and options.")
 # What glim is linked to. Without any driver nothing renders, hence no mere recommendation.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "mesa-vulkan-drivers | vulkan-icd")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS ffmpeg)  # for --movie alone; 156 MB with its libraries
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, glslang-tools")  # for --movie alone, 156 MB with its libraries; for preview --shaders alone
 include(CPack)
