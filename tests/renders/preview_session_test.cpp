@@ -207,16 +207,16 @@ TEST_F(PreviewTest, ControlsOfThePanelsDoWhatTheKeysDo)
     EXPECT_EQ(session("0 key T\n0 key T\n0 key T\n0 key V\n"), expected("--view normal"));
 }
 
-// A surface that is clicked is changed in the panel. The options that C prints render the same, and Z undoes it.
+// A surface that is clicked is changed in the panel. What C prints and J saves renders the same, and Z undoes it.
 TEST_F(PreviewTest, ThePanelChangesTheSurfaceThatWasClicked)
 {
     width = 640;
     height = 320;
     panels = true;
-    const GlimRun session = run(
-        "0 samples 1\n0 click 460,160\n0.2 drag left 20,246 240,246\n0.2 samples 1\n0 key C\n0 key P\n0.2 key Z\n0.2 samples 1\n0 key P\n0 "
-        "close\n",
-        {"--spp", "1"});
+    const GlimRun session =
+        run("0 samples 1\n0 click 460,160\n0.2 drag left 20,246 240,246\n0.2 samples 1\n0 key C\n0 key J\n0 key P\n"
+            "0.2 key Z\n0.2 samples 1\n0 key P\n0 close\n",
+            {"--spp", "1"});
     const std::size_t option = session.out.find(" --set /materials/");
     ASSERT_NE(option, std::string::npos) << session.out << session.err;
     const std::string set = session.out.substr(option + 1, session.out.find('\n', option) - option - 1);
@@ -225,6 +225,7 @@ TEST_F(PreviewTest, ThePanelChangesTheSurfaceThatWasClicked)
     EXPECT_FALSE(sameBits(plain, changed));
     EXPECT_TRUE(sameBits(film(1), changed));
     EXPECT_TRUE(sameBits(film(2), plain));
+    EXPECT_TRUE(sameBits(changed, render("--spp 1 --edits cornell_spheres-001.edits.json")));
 }
 
 TEST_F(PreviewTest, PauseStopsSampling)
