@@ -5,14 +5,13 @@
 #include "host/render/film_identity.hpp"
 #include "host/spirv/interface.hpp"
 #include "host/spirv/mark.hpp"
+#include "host/spirv/validate.hpp"
 
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <spirv-tools/libspirv.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -133,19 +132,6 @@ std::vector<std::uint32_t> wordsOf(const std::string& bytes)
     return words;
 }
 
-// As spirv-val does with the options of the build.
-void requireValid(const std::vector<std::uint32_t>& words)
-{
-    std::string message;
-    spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);
-    tools.SetMessageConsumer([&message](spv_message_level_t, const char*, const spv_position_t&, const char* text) { message = text; });
-    spvtools::ValidatorOptions options;
-    options.SetScalarBlockLayout(true);
-    if (!tools.Validate(words.data(), words.size(), options)) {
-        throw std::runtime_error("its SPIR-V is not valid: " + message);
-    }
-}
-
 spirv::Interface interfaceOf(const EmbeddedShader& shader) { return readInterface(spirv::Module(shader.words())); }
 
 // The kernels of films have one layout: what one of them has is bound for all.
@@ -158,9 +144,11 @@ void requireFit(const spirv::Module& kernel, const EmbeddedShader& own)
     const auto isOwn = [&own](const EmbeddedShader& other) { return own.name == std::string(other.name); };
     if (!misfit.empty() && std::ranges::any_of(films, isOwn)) {
         for (const EmbeddedShader& other : films) {
-            for (const auto& [binding, types] : interfaceOf(other).bindings) {
+            const spirv::Interface more = interfaceOf(other);
+            for (const auto& [binding, types] : more.bindings) {
                 host.bindings[binding].insert(types.begin(), types.end());
             }
+            host.capabilities.insert(more.capabilities.begin(), more.capabilities.end());
         }
         misfit = findMisfit(interface, host);
     }
@@ -171,17 +159,17 @@ void requireFit(const spirv::Module& kernel, const EmbeddedShader& own)
 
 void compileFile(CompiledShader& made, const fs::path& folder, const fs::path& kernel, const EmbeddedShader& own)
 {
-    const NamelessFile said, spirv, rule;
-    const int status = runCompiler(folder, {GLIM_GLSL_OPTIONS, "-I.", "--depfile", rule.path(), "-o", spirv.path(), kernel.string()}, said,
-                                   {&spirv, &rule});
+    const NamelessFile said, compiled, rule;
+    const int status = runCompiler(folder, {GLIM_GLSL_OPTIONS, "-I.", "--depfile", rule.path(), "-o", compiled.path(), kernel.string()},
+                                   said, {&compiled, &rule});
     if (status != 0) {
         made.trouble = readError(said.content(), folder, kernel);
         return;
     }
-    spirv::Module module(wordsOf(spirv.content()));
+    spirv::Module module(wordsOf(compiled.content()));
     markFloats(module);
     std::vector<std::uint32_t> words = module.assemble();
-    requireValid(words);
+    spirv::requireValid(words);
     requireFit(module, own);
     made.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
     made.files = readRule(rule.content());

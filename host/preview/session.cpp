@@ -144,11 +144,10 @@ void Session::takeShaders()
     }
     if (const std::string& trouble = shaders_->trouble(); trouble != messages_.shaders) {
         messages_.shaders = trouble;
-        if (trouble.empty()) {
-            pacer_.change();
-        } else {
-            tell(trouble);
+        if (!trouble.empty()) {
+            glim::say(MessageId::WindowReport, {trouble});
         }
+        pacer_.change();
     }
 }
 

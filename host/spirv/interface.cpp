@@ -27,7 +27,9 @@ public:
     {
         for (const Instruction& instruction : module.preamble()) {
             const Words& words = instruction.words;
-            if (instruction.opcode() == kOpName) {
+            if (instruction.opcode() == kOpCapability) {
+                capabilities_.insert(words[1]);
+            } else if (instruction.opcode() == kOpName) {
                 names_[words[1]] = reinterpret_cast<const char*>(&words[2]);
             } else if (instruction.opcode() == kOpDecorate) {
                 decorations_[words[1]][words[2]] = words.size() > 3 ? words[3] : 0;
@@ -40,6 +42,7 @@ public:
     Interface read() const
     {
         Interface interface;
+        interface.capabilities = capabilities_;
         for (const Instruction& global : module_.globals()) {
             if (global.opcode() == kOpVariable) {
                 add(interface, global);
@@ -119,6 +122,7 @@ private:
     }
 
     const Module& module_;
+    std::set<std::uint32_t> capabilities_;
     std::map<Id, std::string> names_;
     std::map<Id, Decorations> decorations_;
     std::map<Id, std::map<std::uint32_t, Decorations>> members_;
@@ -142,6 +146,11 @@ std::string findMisfit(const Interface& kernel, const Interface& host)
     }
     if (!std::ranges::includes(host.pushConstants, kernel.pushConstants)) {
         return "its push constants have another layout than in the host";
+    }
+    for (const std::uint32_t capability : kernel.capabilities) {
+        if (!host.capabilities.contains(capability)) {
+            return "SPIR-V's capability " + std::to_string(capability) + " is none that the host asks a device for";
+        }
     }
     return kernel.workgroup == host.workgroup ? "" : "its workgroups have another size than in the host";
 }

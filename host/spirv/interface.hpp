@@ -13,6 +13,7 @@ struct Interface {
     std::map<std::uint32_t, std::set<std::string>> bindings;  // the types at each; declarations may share one
     std::map<std::uint32_t, std::string> names;               // of the bindings, in GLSL
     std::set<std::string> pushConstants;                      // one or none
+    std::set<std::uint32_t> capabilities;                     // that it asks of the device
     std::string workgroup;                                    // its size, and the constants that set it
 };
 

@@ -45,6 +45,8 @@ TEST_F(CompileShaderTest, SameWordsAsTheBuild)
         EXPECT_TRUE(std::ranges::equal(*made.words, own.words())) << own.name;
         EXPECT_EQ(made.trouble, "");
     }
+    replace("lib/finite.glsl", "\n", "\n// A comment changes no word.\n");
+    EXPECT_TRUE(std::ranges::equal(*compileShader(shaders_, kernels::preview).words, kernels::preview.words()));
 }
 
 TEST_F(CompileShaderTest, KnowsTheFilesOfAKernel)
@@ -98,6 +100,8 @@ TEST_F(CompileShaderTest, RefusesAnotherInterface)
     expectMisfit("access/display.glsl", "local_size_x_id = kSpecWorkgroup", "local_size_x = 64",
                  "its workgroups have another size than in the host");
     expectMisfit("access/display.glsl", "kBindFolded", "99", "binding 99 (filmFoldedBuffer) is unknown to the host");
+    expectMisfit(file, "uint index = ", "uint index = uint(double(pixel)) - pixel + ",
+                 "SPIR-V's capability 10 is none that the host asks a device for");
     expectMisfit("access/display.glsl", "{ type name[]; }", "{ float more##name; type name[]; }",
                  "binding " + std::to_string(kBindBlocks) + " (filmBlocksBuffer) has another layout than in the host");
     EXPECT_EQ(compileShader(shaders_, kernels::preview).trouble, "");

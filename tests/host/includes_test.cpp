@@ -69,6 +69,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
     {"commit.h", {"job"}},
     {"version.h", {"job", "render"}},
     {"specializer.h", {"gpu"}},
+    {"glsl_options.h", {"preview"}},
     {"kernels.hpp", {"render", "denoise", "gpu"}},
     {"spirv-tools/", {"gpu", "spirv"}},
     {"nlohmann/", {"scene"}},
