@@ -2,20 +2,17 @@
 
 #include "host/measure/compare_images.hpp"
 #include "host/measure/picture.hpp"
+#include "host/render/robust_radiance.hpp"
 #include "shaders/shared/limits.h"
 
 #include <algorithm>
 
 namespace glim {
-namespace {
-
-constexpr double kGrowth = 1.25;  // of the samples, from one measurement to the next
-
-}  // namespace
 
 void FilmMeter::restart()
 {
     errors_.clear();
+    errorLayer_.restart();
     renew();
 }
 
@@ -32,7 +29,9 @@ void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
     const bool isExposed = !options_.exposure && (aov == Aov::Radiance || aov == Aov::Albedo);
     const bool isRanged = aov == Aov::Depth || aov == Aov::SampleCount || aov == Aov::BvhSteps;
     const bool isFirst = (isRanged || isExposed) && measuredAov_ != aov;
-    if (!isFirst && (samples < 1 || samples < kGrowth * static_cast<double>(measuredAt_) || isWaiting)) {
+    const double growth = errors_.empty() ? kUsualGrowth : growthToNext(errors_.back(), errorLayer_.target());
+    const bool isLast = refiner.isDone() && samples > measuredAt_;
+    if (!isFirst && (samples < 1 || (samples < growth * static_cast<double>(measuredAt_) && !isLast) || isWaiting)) {
         return;
     }
     if (!isRanged && !isExposed && samples < minSamplesForError(0)) {
@@ -48,8 +47,12 @@ void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
     if (aov == Aov::SampleCount) {
         range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
     }
-    if (const auto errors = estimateErrors(makePicture(film)); errors && errors->relMse > 0.0 && aov != Aov::BvhSteps) {
-        errors_.push_back({refiner.seconds(), errors->relMse});
+    const Picture picture = makePicture(film);
+    const std::vector<glm::dvec3> likely = robustRadiance(picture.width, picture.height, picture.radiance, picture.variance);
+    if (const auto errors = estimateErrors(picture, likely); errors && errors->relMse > 0.0 && aov != Aov::BvhSteps) {
+        const bool isWhole = std::ranges::all_of(film.pixels, [](const PixelMoments& pixel) { return pixel.blocks >= 2; });
+        errors_.push_back({refiner.seconds(), errors->relMse, refiner.renderer().plan().pictureSamples(), isWhole});
+        errorLayer_.take(picture, likely);
     }
 }
 

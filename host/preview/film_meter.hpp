@@ -2,7 +2,8 @@
 // samples grow.
 #pragma once
 
-#include "host/preview/panels.hpp"
+#include "host/preview/error_layer.hpp"
+#include "host/preview/error_target.hpp"
 #include "host/preview/refiner.hpp"
 #include "host/render/film_pictures.hpp"
 
@@ -28,11 +29,13 @@ public:
     void restart();
     // Measures at the next call.
     void renew() { measuredAt_ = 0; }
-    // Measures if the samples have grown by a quarter since the last time, but not while the user `isWaiting`. At once if an exposure for
-    // `aov` or its range is not known yet.
+    // Measures if the samples have grown by a quarter since the last time, are all there or may have reached the target, but not while the
+    // user `isWaiting`. At once if an exposure for `aov` or its range is not known yet.
     void measure(Refiner& refiner, Aov aov, bool isWaiting);
 
     const std::vector<ErrorPoint>& errors() const { return errors_; }  // of the present picture
+    ErrorLayer& errorLayer() { return errorLayer_; }
+    const ErrorLayer& errorLayer() const { return errorLayer_; }
     const DisplayRange& range() const { return range_; }
     const Look& look() const { return look_; }
     // What of it was set.
@@ -44,6 +47,7 @@ private:
     LookOptions options_;
     Look look_;
     std::vector<ErrorPoint> errors_;
+    ErrorLayer errorLayer_;
     DisplayRange range_;
     std::uint64_t measuredAt_ = 0;    // samples
     std::optional<Aov> measuredAov_;  // that range_ belongs to

@@ -91,7 +91,7 @@ void IdleDenoiser::take()
     }
 }
 
-std::vector<std::string> describe(const IdleDenoiser& denoiser)
+std::vector<std::string> describe(const IdleDenoiser& denoiser, bool works)
 {
     std::vector<std::string> lines;
     if (const IdleDenoiser::Result* result = denoiser.result()) {
@@ -106,7 +106,7 @@ std::vector<std::string> describe(const IdleDenoiser& denoiser)
             lines.push_back("error unknown");
         }
     }
-    if (denoiser.isWorking()) {
+    if (works && denoiser.isWorking()) {
         lines.push_back("denoising");
     }
     return lines;

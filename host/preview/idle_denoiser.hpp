@@ -56,7 +56,7 @@ private:
     std::uint64_t version_ = 0;
 };
 
-// The lines of the panel.
-std::vector<std::string> describe(const IdleDenoiser& denoiser);
+// The lines of the panel. What is known of the errors stays when the user sees the noisy picture, and it no longer `works`.
+std::vector<std::string> describe(const IdleDenoiser& denoiser, bool works);
 
 }  // namespace glim

@@ -43,10 +43,10 @@ constexpr HelpLine kHelp[] = {
     {"F11, Esc", "full screen or not, quit"},
 };
 
-const char* getName(Aov aov)
+const char* getName(const WindowLayer& layer)
 {
     constexpr const char* kNames[] = {"shaded", "normal", "depth", "albedo", "BVH steps", "guide", "samples"};
-    return kNames[static_cast<int>(aov)];
+    return layer.isError ? "error" : kNames[static_cast<int>(layer.aov)];
 }
 
 std::size_t chooseCamera(const std::vector<std::string>& cameras, std::size_t chosen)
@@ -95,6 +95,23 @@ void plotErrors(const std::vector<ErrorPoint>& points)
         list.AddCircleFilled(at, 0.4F * margin + 1.0F, color);
     }
     ImGui::Text("%.3g s to %.3g s, logarithmic", points.front().seconds, points.back().seconds);
+}
+
+// Returns the target that the user chooses.
+double showErrors(const PanelFigures& figures, const PanelChoices& choices)
+{
+    if (figures.errors.empty()) {
+        ImGui::TextUnformatted("error unknown yet");
+    } else {
+        ImGui::Text("estimated relMSE %.3g", figures.errors.back().relMse);
+        plotErrors(figures.errors);
+        ImGui::TextUnformatted(figures.toTarget.c_str());
+    }
+    const double target = targetSlider(choices.target);
+    if (choices.layer.isError) {
+        showErrorScale(target);
+    }
+    return target;
 }
 
 void showFigures(const PanelFigures& figures)
@@ -187,7 +204,7 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
     if (beginPanel("glim (H: help)###controls")) {
         choices.exposure = exposureSlider(choices.exposure);
         choices.tone = toneCombo(choices.tone);
-        choices.layer = choose("layer", figures.layers, choices.layer, [](Aov layer) { return getName(layer); });
+        choices.layer = choose("layer", figures.layers, choices.layer, [](const WindowLayer& layer) { return getName(layer); });
         choices.camera = chooseCamera(figures.cameras, choices.camera);
         if (choices.fieldOfView) {
             ImGui::SliderScalar("fov", ImGuiDataType_Double, &*choices.fieldOfView, &kNarrowest, &kWidest, "%.1f deg",
@@ -209,10 +226,9 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
         }
         ImGui::Separator();
         showFigures(figures);
-        if (!figures.errors.empty()) {
+        if (!figures.errors.empty() || choices.layer.isError) {
             ImGui::Separator();
-            ImGui::Text("estimated relMSE %.3g", figures.errors.back().relMse);
-            plotErrors(figures.errors);
+            choices.target = showErrors(figures, choices);
         }
         if (figures.canGuide) {
             ImGui::Separator();

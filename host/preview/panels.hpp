@@ -1,6 +1,7 @@
 // The panels over the preview's picture.
 #pragma once
 
+#include "host/preview/error_target.hpp"
 #include "host/preview/lens_control.hpp"
 #include "host/preview/scene_panel.hpp"
 #include "host/preview/surface_panel.hpp"
@@ -17,9 +18,11 @@
 
 namespace glim {
 
-// An estimate of the picture's error, at a time since its start.
-struct ErrorPoint {
-    double seconds, relMse;
+// What the window shows of the picture: a channel of the film, or the error of its light.
+struct WindowLayer {
+    Aov aov = Aov::Radiance;
+    bool isError = false;
+    bool operator==(const WindowLayer&) const = default;
 };
 
 // What the panels show, and the user does not change there.
@@ -28,12 +31,13 @@ struct PanelFigures {
     double seconds = 0.0, samplesPerSecond = 0.0;
     std::string state;  // such as "paused"; empty while sampling
     std::vector<ErrorPoint> errors;
+    std::string toTarget;  // how far the error is from the target; there if errors are
     bool canDenoise = false;
     std::vector<std::string> denoising;  // lines
     glm::uvec2 size{0};
     std::uint32_t scale = 1;  // the side of a film's pixel in pixels of the window
     std::string device;
-    std::vector<Aov> layers;
+    std::vector<WindowLayer> layers;
     std::vector<std::string> cameras;
     std::optional<float> widestAperture;  // its radius, metres; absent: the camera has no lens
     std::vector<Animation> animations;    // none: there is no time to choose
@@ -47,7 +51,7 @@ struct PanelFigures {
 struct PanelChoices {
     double exposure = 0.0;
     Tone tone = Tone::None;
-    Aov layer = Aov::Radiance;
+    WindowLayer layer;
     std::size_t camera = 0;
     std::optional<double> fieldOfView;  // vertical, degrees; absent: there is none to choose
     LensChoices lens;
@@ -56,6 +60,7 @@ struct PanelChoices {
     bool showsGuide = false;
     SurfaceChoices surface;
     SceneChoices scene;
+    double target = 0.0;  // relMSE
     bool undo = false;
     bool operator==(const PanelChoices&) const = default;
 };

@@ -1,12 +1,14 @@
-// Draws what the window shows: a film, or what was denoised of it.
+// Draws what the window shows: a film, what was denoised of it, or its error.
 #pragma once
 
+#include "host/preview/error_layer.hpp"
 #include "host/preview/idle_denoiser.hpp"
 #include "host/render/display.hpp"
 #include "host/render/painter.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace glim {
 
@@ -23,17 +25,27 @@ public:
 
     // Kernels have changed.
     void renew();
-    void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);
-    void draw(const IdleDenoiser::Result& denoised, const Look& look);
+    // Whether a checkerboard shows where no surface is.
+    void setTransparent(bool transparent) { isTransparent_ = transparent; }
+    void draw(Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);
+    void draw(Renderer& renderer, const IdleDenoiser::Result& denoised, const Look& look);
+    // Until errors are known, the film in grey.
+    void draw(Renderer& renderer, const ErrorLayer& errors, const Look& look);
     // What was drawn last.
-    const StorageImage& picture() const { return isDenoised_ ? painter_->picture() : display_.picture(); }
+    const StorageImage& picture() const { return isPainted_ ? painter_->picture() : display_.picture(); }
 
 private:
+    enum class Painted { Nothing, Denoised, Errors };
+    bool beginPainting(Painted what, std::uint64_t version);
+    void paint(ViewPass pass);
+
     Device& device_;
+    bool isTransparent_ = false;
     Display display_;
-    std::optional<Painter> painter_;  // of denoised pictures
-    std::uint64_t painted_ = 0;       // the version whose values painter_ has
-    bool isDenoised_ = false;         // what was drawn last
+    std::optional<Painter> painter_;  // of values that are on the host
+    Painted painted_ = Painted::Nothing;
+    std::uint64_t version_ = 0;  // of what is painted, whose values painter_ has
+    bool isPainted_ = false;     // what was drawn last
 };
 
 }  // namespace glim

@@ -331,10 +331,14 @@ void Session::present()
     const Clock::time_point start = Clock::now();
     if (!pictures_.isEmpty()) {
         meter_.measure(pictures_.shown(), pictures_.layer(), isInputWaiting());
-        if (const IdleDenoiser::Result* denoised = shownDenoised()) {
-            drawer_.draw(*denoised, meter_.look());
+        Renderer& renderer = pictures_.shown().renderer();
+        drawer_.setTransparent(!pictures_.options().environmentBackground || pictures_.settings().catcher);
+        if (meter_.errorLayer().isShown()) {
+            drawer_.draw(renderer, meter_.errorLayer(), meter_.look());
+        } else if (const IdleDenoiser::Result* denoised = shownDenoised()) {
+            drawer_.draw(renderer, *denoised, meter_.look());
         } else {
-            drawer_.draw(pictures_.shown().renderer(), pictures_.layer(), meter_.range(), meter_.look());
+            drawer_.draw(renderer, pictures_.layer(), meter_.range(), meter_.look());
         }
     }
     if (showsGuide()) {
@@ -463,8 +467,8 @@ void Session::pressForScene(char key)
     if (key >= '1' && key <= '9') {
         chooseCamera(static_cast<std::size_t>(key - '1'));
     } else if (key == 'V') {
-        const std::vector<Aov> order = pictures_.layers();
-        const auto at = std::find(order.begin(), order.end(), pictures_.layer());
+        const std::vector<WindowLayer> order = layers();
+        const auto at = std::find(order.begin(), order.end(), layer());
         chooseLayer(at + 1 == order.end() ? order.front() : at[1]);
     } else if (key == 'P') {
         timeline_.rest(timeline_.moment());
@@ -553,9 +557,10 @@ void Session::undo()
     }
 }
 
-void Session::chooseLayer(Aov layer)
+void Session::chooseLayer(const WindowLayer& layer)
 {
-    if (pictures_.choose(layer, viewpoint_->camera(size()), size(), hasMoved())) {
+    meter_.errorLayer().show(layer.isError);
+    if (pictures_.choose(layer.aov, viewpoint_->camera(size()), size(), hasMoved())) {
         begin();
     }
     meter_.renew();

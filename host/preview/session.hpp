@@ -75,7 +75,9 @@ private:
     void handleMouse(const Event& event);
     void press(char key);
     void pressForScene(char key);
-    void chooseLayer(Aov layer);
+    std::vector<WindowLayer> layers() const;
+    WindowLayer layer() const { return {pictures_.layer(), meter_.errorLayer().isShown()}; }
+    void chooseLayer(const WindowLayer& layer);
     void chooseCamera(std::size_t index);
     void toggleGuide();
     void play();

@@ -13,11 +13,21 @@ constexpr float kWidestAperture = 0.05F;  // in radii of the scene
 
 }  // namespace
 
+std::vector<WindowLayer> Session::layers() const
+{
+    std::vector<WindowLayer> layers;
+    for (const Aov aov : pictures_.layers()) {
+        layers.push_back({aov});
+    }
+    layers.push_back({Aov::Radiance, true});
+    return layers;
+}
+
 PanelChoices Session::chosen() const
 {
     return {meter_.look().exposure,
             meter_.look().tone,
-            pictures_.layer(),
+            layer(),
             viewpoint_ ? viewpoint_->index() : 0,
             pictures_.isEmpty() ? std::nullopt : viewpoint_->fieldOfView(),
             lens_.choices(),
@@ -25,7 +35,8 @@ PanelChoices Session::chosen() const
             denoises_,
             showsGuide_,
             surface_ ? surface_->choices : SurfaceChoices(),
-            {changes_.options(), dragsSun_}};
+            {changes_.options(), dragsSun_},
+            meter_.errorLayer().target()};
 }
 
 // Returns what the user wants to be chosen.
@@ -85,6 +96,7 @@ void Session::buildPanels()
     if (wanted.time != before.time) {
         timeline_.choose(wanted.time, Clock::now());
     }
+    meter_.errorLayer().setTarget(wanted.target);
     denoises_ = wanted.denoises;
     showsGuide_ = wanted.showsGuide;
     dragsSun_ = wanted.scene.dragsSun;
@@ -131,12 +143,16 @@ PanelFigures Session::figures() const
                     : pictures_.isGuided()                     ? "guided"
                                                                : "";
     figures.errors = meter_.errors();
+    if (!figures.errors.empty()) {
+        figures.toTarget = describeTarget(meter_.errorLayer().target(), figures.errors.back(), picture.renderer().plan().pictureSamples(),
+                                          picture.samplesPerSecond(), picture.isDone());
+    }
     figures.canDenoise = pictures_.settings().halves;
-    figures.denoising = denoises_ ? describe(denoiser_) : std::vector<std::string>{};
+    figures.denoising = describe(denoiser_, denoises_);
     figures.size = size();
     figures.scale = picture.scale();
     figures.device = screen_.device().description().name;
-    figures.layers = pictures_.layers();
+    figures.layers = layers();
     for (const Camera& camera : viewpoint_->cameras()) {
         figures.cameras.push_back(camera.name);
     }

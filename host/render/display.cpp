@@ -72,7 +72,7 @@ void Display::takeFolded(const Renderer& renderer)
     }
 }
 
-void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look)
+void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look, std::uint32_t drawn)
 {
     takeFolded(renderer);
     DisplayPass pass{};
@@ -84,6 +84,7 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
     pass.tone = static_cast<std::uint32_t>(look.tone);
     pass.low = range.low;
     pass.high = range.high;
+    pass.drawn = drawn;
     const bool anyFolded = renderer.films().foldVersion() != 0, composites = aov == Aov::Radiance && renderer.settings().catcher;
     for (std::size_t i = 0; i < renderer.films().tiles().size(); ++i) {
         const Tile& tile = *renderer.films().tiles()[i];

@@ -22,8 +22,9 @@ public:
     // Kernels have changed.
     void renew() { previews_.clear(); }
 
-    // Draws the renderer's film so far, stretched over the picture. Its light is composited if it has shadow catchers.
-    void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look);
+    // Draws the renderer's film so far, stretched over the picture. Its light is composited if it has shadow catchers. `drawn`:
+    // kDrawnInColor ... (shaders/shared/display_types.h).
+    void draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look, std::uint32_t drawn = kDrawnInColor);
     const StorageImage& picture() const { return *picture_; }
     std::uint32_t width() const { return picture_->width(); }
     std::uint32_t height() const { return picture_->height(); }

@@ -35,11 +35,12 @@ Aov getAov(const Film& film)
     return found == aovs.end() ? Aov::Radiance : found->second;
 }
 
+bool showsSurfaces(Aov aov) { return aov != Aov::SampleCount && aov != Aov::BvhSteps && aov != Aov::Guide; }
+
 void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look)
 {
-    const bool showsSurfaces = aov != Aov::SampleCount && aov != Aov::BvhSteps && aov != Aov::Guide;
     const std::optional<PictureKind> kind = getPictureKind(path);
-    if (film.showsBackground || !showsSurfaces) {
+    if (film.showsBackground || !showsSurfaces(aov)) {
         writePicture(path, film.width, film.height, draw(film, aov, look, displayColor));
     } else if (!kind || hasAlpha(*kind)) {
         writePicture(path, film.width, film.height, draw(film, aov, look, displaySurfaces));

@@ -12,6 +12,9 @@ namespace glim {
 // The AOV of the film's --view, which its settings name.
 Aov getAov(const Film& film);
 
+// Whether `aov` is of surfaces, so that it is transparent where the background is hidden and none is. Others count something.
+bool showsSurfaces(Aov aov);
+
 // A file of the kind that the ending of `path` names (host/image/picture_file.hpp). It has alpha if the film's background is hidden, unless
 // `aov` counts something, or the kind has none, which is said.
 void writeFilmPicture(const std::filesystem::path& path, const Film& film, Aov aov, const Look& look = {});

@@ -21,7 +21,8 @@ public:
     glm::uvec2 size() const { return {picture_->width(), picture_->height()}; }
     const StorageImage& picture() const { return *picture_; }
 
-    // The values under the picture's pixels, as many as there are: of the film, and of the reference that differences are from.
+    // The values under the picture's pixels, as many as there are: of the film, and of the reference that differences are from or the
+    // alpha of surfaces.
     void setValues(std::span<const glm::vec3> values);
     void setReference(std::span<const glm::vec3> values);
     // Draws by `pass`, after it has set the band.

@@ -20,14 +20,14 @@ void drawPixel(uint pixel)
     if (moments.count == 0u) {
         return;
     }
-    vec4 color = vec4(displayColor(moments, kAov, pass), 1.0);
+    vec4 color = drawnColor(moments, kAov, pass);
     uint index = pass.tileBegin + pixel;
     uvec2 film = uvec2(index % pass.filmWidth, index / pass.filmWidth);
     uvec2 low = computeCorner(film);
     uvec2 high = computeCorner(film + 1u);
     for (uint y = low.y; y < high.y; ++y) {
         for (uint x = low.x; x < high.x; ++x) {
-            imageStore(picture, ivec2(x, y), color);
+            imageStore(picture, ivec2(x, y), vec4(overCheckers(color, uvec2(x, y)), 1.0));
         }
     }
 }

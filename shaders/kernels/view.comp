@@ -12,8 +12,8 @@ vec3 colorAt(uvec2 at, uint index)
     if (at.x < pass.left || at.x >= pass.right || at.y < pass.top || at.y >= pass.bottom) {
         return kAroundFilm;
     }
-    vec3 reference = pass.shownAs == kShownAsDifference ? getReferencePath[index] : vec3(0.0);
-    return viewColor(viewed[index], reference, pass);
+    bool needsReference = pass.shownAs == kShownAsDifference || pass.shownAs == kShownAsSurfaces;
+    return viewColor(viewed[index], needsReference ? getReferencePath[index] : vec3(0.0), at, pass);
 }
 
 void main()

@@ -5,6 +5,7 @@
 #include "finite.glsl"
 #include "shared/display_colors.h"
 #include "shared/display_types.h"
+#include "shared/luminance.h"
 #include "shared/pixel_moments.h"
 #include "shared/tone_mapping.h"
 
@@ -50,14 +51,50 @@ vec3 displayColor(PixelMoments pixel, uint aov, DisplayPass pass)
     }
 }
 
-// `value` is the film's, `reference` that of the other film, which only differences need.
-vec3 viewColor(vec3 value, vec3 reference, ViewPass pass)
+// The same of the surfaces in the pixel alone, with their coverage as alpha.
+vec4 displaySurfaces(PixelMoments pixel, uint aov, DisplayPass pass)
+{
+    if (!isFinite(pixel.mean)) {
+        return vec4(kMagenta, 1.0);
+    }
+    if (!(pixel.alpha > 0.0)) {
+        return vec4(0.0);
+    }
+    pixel.mean /= pixel.alpha;
+    pixel.albedo /= pixel.alpha;
+    return vec4(displayColor(pixel, aov, pass), pixel.alpha);
+}
+
+// As the pass draws them, with alpha.
+vec4 drawnColor(PixelMoments pixel, uint aov, DisplayPass pass)
+{
+    if (pass.drawn == kDrawnOverCheckers) {
+        return displaySurfaces(pixel, aov, pass);
+    }
+    vec3 color = displayColor(pixel, aov, pass);
+    return vec4(pass.drawn == kDrawnInGrey ? roundToBytes(vec3(255.0 * computeLuminance(color))) : color, 1.0);
+}
+
+// What shows of a colour with alpha in the window, at this place.
+vec3 overCheckers(vec4 color, uvec2 at)
+{
+    return color.a < 1.0 ? roundToBytes(overCheckers(255.0 * color.rgb, color.a, at.x, at.y)) : color.rgb;
+}
+
+// `value` is the film's, `reference` that of the other film or alpha, which only differences and surfaces need; `at` is in the window.
+vec3 viewColor(vec3 value, vec3 reference, uvec2 at, ViewPass pass)
 {
     bool differs = pass.shownAs == kShownAsDifference;
     if (!isFinite(value) || (differs && !isFinite(reference))) {
         return kMagenta;
     }
+    if (pass.shownAs == kShownAsSurfaces) {
+        float alpha = reference.x;
+        vec3 light = alpha > 0.0 ? value / alpha : vec3(0.0);
+        return overCheckers(vec4(roundToBytes(lightColor(mapTone(pass.scale * light, pass.tone))), alpha), at);
+    }
     switch (pass.shownAs) {
+    case kShownAsError: return roundToBytes(errorColor(value.x, pass.high));
     case kShownAsVector: return value == vec3(0.0) ? vec3(0.0) : roundToBytes(vectorColor(value));
     case kShownAsDepth: return value.x == 0.0 ? vec3(0.0) : roundToBytes(depthColor(value.x, pass.low, pass.high));
     case kShownAsHeat: return roundToBytes(heatColor(placeOnScale(dot(value, vec3(1.0 / 3.0)), pass.low, pass.high, kSmallestScale)));

@@ -4,6 +4,10 @@
 #define GLIM_SHARED_DISPLAY_COLORS_H
 #include "vocabulary.h"
 
+#ifdef __cplusplus
+#include <cmath>
+#endif
+
 GLIM_SHARED_BEGIN
 
 // The grey of the farthest depth: brighter than the black where no surface is.
@@ -28,6 +32,35 @@ GLIM_FUNCTION RealVec3 differenceColor(Real value)
 {
     RealVec3 end = value < 0.0 ? RealVec3(0.0, 40.0, 200.0) : RealVec3(200.0, 0.0, 0.0);
     return 255.0 + min(abs(value), 1.0) * (end - 255.0);
+}
+
+// An error that nothing is known of. Its grey is in none of the colours of errors.
+GLIM_CONST Real kUnknownError = -1.0;
+GLIM_CONST Real kUnknownGrey = 128.0;
+
+// The colours of errors differ from a hundredth of the target to a hundred times as much.
+GLIM_CONST Real kErrorSpan = 100.0;
+
+// From blue to cyan up to the target, and from yellow to red beyond it, by the error's logarithm.
+GLIM_FUNCTION RealVec3 errorColor(Real error, Real target)
+{
+    if (error < 0.0) {
+        return RealVec3(kUnknownGrey);
+    }
+    Real place = log(max(error / target, 1.0 / kErrorSpan)) / log(kErrorSpan);
+    return heatColor(error <= target ? 0.25 + 0.25 * min(place, 0.0) : 0.75 + 0.25 * max(place, 0.0));
+}
+
+// The checkerboard behind what is transparent, as image programs have it: the side of its squares in pixels of the window, and their greys.
+GLIM_CONST uint kCheckerSide = 12u;
+GLIM_CONST float kLightChecker = 153.0F;
+GLIM_CONST float kDarkChecker = 102.0F;
+
+// A colour of so much coverage over it, in column x and row y of the window. Displays' numbers are mixed, not light.
+GLIM_FUNCTION vec3 overCheckers(vec3 color, float alpha, uint x, uint y)
+{
+    float grey = (x / kCheckerSide + y / kCheckerSide) % 2u == 0u ? kLightChecker : kDarkChecker;
+    return mix(vec3(grey), color, clamp(alpha, 0.0F, 1.0F));
 }
 
 // From white, of the nearest depth, to kFarthestGrey.

@@ -6,6 +6,11 @@
 
 GLIM_SHARED_BEGIN
 
+// How the kernel preview draws the film.
+GLIM_CONST uint kDrawnInColor = 0u;
+GLIM_CONST uint kDrawnInGrey = 1u;
+GLIM_CONST uint kDrawnOverCheckers = 2u;  // the surfaces alone, over a checkerboard
+
 // Push constants: a tile of the film, stretched over the window's picture.
 struct DisplayPass {
     uint width, height;  // of the picture
@@ -14,6 +19,7 @@ struct DisplayPass {
     float scale;                // 2^EV, of radiance and albedo
     uint tone;                  // kToneNone ..., of radiance
     float low, high;            // ends of the scale of depths, samples or steps
+    uint drawn;                 // kDrawnInColor ...
 };
 
 // How the kernel view shows three numbers of a pixel.
@@ -22,6 +28,8 @@ GLIM_CONST uint kShownAsVector = 1u;      // with components from -1 to 1; black
 GLIM_CONST uint kShownAsDepth = 2u;       // black where it is 0
 GLIM_CONST uint kShownAsHeat = 3u;        // the mean of the three
 GLIM_CONST uint kShownAsDifference = 4u;  // from the same pixel of the reference
+GLIM_CONST uint kShownAsSurfaces = 5u;    // light whose alpha is the first number of the reference, over a checkerboard
+GLIM_CONST uint kShownAsError = 6u;       // the first number against the target, which is `high`
 
 // Push constants: a band of rows of the window's picture, and the rectangle of the picture that shows a film.
 struct ViewPass {
@@ -30,7 +38,7 @@ struct ViewPass {
     uint shownAs;                   // kShownAsColor ...
     float scale;                    // 2^EV, of colours; differences are multiplied by it
     uint tone;                      // kToneNone ..., of colours
-    float low, high;                // ends of the scale of depths or heat
+    float low, high;                // ends of the scale of depths or heat; high is also the target of errors
     float relative, epsilon;        // a difference is divided by sqrt(relative r^2 + epsilon), with the reference r
 };
 

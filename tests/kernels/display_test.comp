@@ -8,6 +8,7 @@ struct Case {
     PixelMoments pixel;
     uint aov;
     DisplayPass display;
+    uvec2 at;       // in the window
     vec3 expected;  // bytes, by the host
 };
 
@@ -18,7 +19,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        vec3 bytes = 255.0 * displayColor(c.pixel, c.aov, c.display);
+        vec3 bytes = 255.0 * overCheckers(drawnColor(c.pixel, c.aov, c.display), c.at);
         // A value of .5 may round to either side.
         EXPECT_NEAR(bytes.r, c.expected.r, 1.001);
         EXPECT_NEAR(bytes.g, c.expected.g, 1.001);

@@ -1,6 +1,8 @@
 // The window shows the colours that files have.
 #include "host/render/aov.hpp"
+#include "shaders/shared/display_colors.h"
 #include "shaders/shared/display_types.h"
+#include "shaders/shared/luminance.h"
 #include "test_kernels.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
@@ -19,8 +21,29 @@ struct Case {
     PixelMoments pixel;
     uint aov;
     DisplayPass display;
+    uvec2 at;
     vec3 expected;
 };
+
+vec3 bytesOf(const RealVec3& color)
+{
+    const Rgb8 bytes = roundToBytes(color);
+    return {bytes[0], bytes[1], bytes[2]};
+}
+
+// By the functions that files are written with.
+vec3 colorOf(const Case& c, const DisplayRange& range, const Look& look)
+{
+    const Aov aov = static_cast<Aov>(c.aov);
+    if (c.display.drawn == kDrawnOverCheckers) {
+        const Rgba8 color = displaySurfaces(c.pixel, aov, range, look);
+        const float alpha = color == Rgba8{kMagenta[0], kMagenta[1], kMagenta[2], 255} ? 1.0F : c.pixel.alpha;  // 8 bits are too few
+        return bytesOf(overCheckers({color[0], color[1], color[2]}, alpha, c.at.x, c.at.y));
+    }
+    const Rgb8 color = displayColor(c.pixel, aov, range, look);
+    const vec3 shown(color[0], color[1], color[2]);
+    return c.display.drawn == kDrawnInGrey ? bytesOf(RealVec3(computeLuminance(shown))) : shown;
+}
 
 // Radiance as bytes by conversion alone, as the kernel has it; cases 0 and 97 have NaN in red and infinity in green.
 void expectIndicesOutside(const std::vector<uvec3>& naive)
@@ -60,8 +83,9 @@ TEST(DisplayTest, H40ColoursAreThoseOfTheHost)
         c.display.tone = static_cast<std::uint32_t>(look.tone);
         c.display.low = range.low;
         c.display.high = range.high;
-        const Rgb8 color = displayColor(c.pixel, aov, range, look);
-        c.expected = {color[0], color[1], color[2]};
+        c.display.drawn = static_cast<std::uint32_t>(i / 18 % 3);
+        c.at = {i % 100, i / 100};
+        c.expected = colorOf(c, range, look);
     }
     KernelTest test(test_kernels::display_test);
     test.cases(cases).resultsOf<uvec3>(cases.size()).run();

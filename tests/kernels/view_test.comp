@@ -7,6 +7,7 @@
 struct Case {
     vec3 value, reference;
     ViewPass view;
+    uvec2 at;       // in the window
     vec3 expected;  // bytes, by the host
 };
 
@@ -17,7 +18,7 @@ void main()
 {
     if (isTestThread()) {
         Case c = cases[TEST_THREAD];
-        vec3 bytes = 255.0 * viewColor(c.value, c.reference, c.view);
+        vec3 bytes = 255.0 * viewColor(c.value, c.reference, c.at, c.view);
         // A value of .5 may round to either side.
         EXPECT_NEAR(bytes.r, c.expected.r, 1.001);
         EXPECT_NEAR(bytes.g, c.expected.g, 1.001);

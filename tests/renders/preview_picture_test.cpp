@@ -302,6 +302,10 @@ TEST(IdleDenoiserTest, GivesTheDenoisedPictureOfTheHalves)
         EXPECT_EQ(denoiser.result()->picture.radiance, atOnce->radiance);
         EXPECT_EQ(denoiser.result()->picture.measured.mse.value, atOnce->measured.mse.value);
         EXPECT_LT(atOnce->measured.mse.value, atOnce->measured.noisyMse);
+        const std::vector<std::string> lines = describe(denoiser, false);
+        ASSERT_EQ(lines.size(), 3U);
+        EXPECT_TRUE(lines[1].starts_with("measured RMSE ")) << "also while the noisy picture is shown";
+        EXPECT_TRUE(lines[2].starts_with("without denoising "));
     }
 }
 

@@ -103,7 +103,7 @@ Film PreviewTest::render(const std::string& options) const
 
 std::string PreviewTest::numbered(int number) const
 {
-    return folder / (std::filesystem::path(scene).stem().string() + "-00" + std::to_string(number)).c_str();
+    return folder / (std::filesystem::path(scene).stem().string() + (number < 10 ? "-00" : "-0") + std::to_string(number)).c_str();
 }
 
 Film PreviewTest::film(int number) const { return readFilm(numbered(number) + ".exr"); }
