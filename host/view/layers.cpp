@@ -161,6 +161,14 @@ Picture valuesOf(const Image& image, const Layer& layer)
     return values;
 }
 
+Picture alphaOf(const Image& image)
+{
+    const auto found = image.attributes.find("glim:background");
+    const auto* const background = found == image.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
+    const bool isHidden = background != nullptr && *background == "off" && image.channels.contains("A");
+    return isHidden ? valuesOf(image, {"alpha", {"A"}, ShownAs::Heat}) : Picture{};
+}
+
 std::optional<DisplayRange> getRange(const Image& image, const Layer& layer, const Picture& values)
 {
     const bool isDepth = layer.shownAs == ShownAs::Depth;

@@ -37,6 +37,9 @@ std::vector<Layer> collectLayers(const Image& image);
 // is 0. Ids become colours; the largest stands for none and becomes black.
 Picture valuesOf(const Image& image, const Layer& layer);
 
+// The alpha of a film whose background is hidden, as `radiance`; empty of others. All its layers of colours are multiplied by it.
+Picture alphaOf(const Image& image);
+
 // The ends of the scale of depths and heat; nothing for other layers, and if no value is finite. Of depths and counts: the least and the
 // most. Of other numbers: 0, or the least if that is negative, and what 99.9 % stay below.
 std::optional<DisplayRange> getRange(const Image& image, const Layer& layer, const Picture& values);

@@ -180,6 +180,8 @@ void ViewSession::chooseLayer(std::size_t index)
     std::optional<DisplayRange> range;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         values_[i] = layer.of[i] ? valuesOf(films_.image(i), *layer.of[i]) : Picture{};
+        const bool isColor = layer.of[i] && layer.of[i]->isExposed;
+        alphas_[i] = isColor ? alphaOf(films_.image(i)) : Picture{};
         const auto own = layer.of[i] ? getRange(films_.image(i), *layer.of[i], values_[i]) : std::nullopt;
         range = range && own ? joined(*range, *own) : own ? own : range;
     }
@@ -301,6 +303,8 @@ void ViewSession::draw()
 {
     const bool differs = side_ == Side::Difference;
     const ShownAs as = shown_.layer.shownAs;
+    const std::size_t side = side_ == Side::B ? 1 : 0;
+    const bool isTransparent = !differs && !alphas_[side].radiance.empty();
     if (!laid_) {
         const bool averages = as != ShownAs::Ids && as != ShownAs::Depth;  // means of ids, or of a depth and nothing, mean nothing
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
@@ -308,9 +312,12 @@ void ViewSession::draw()
                 layUnder(values_[i], viewport_, painter_.size(), averages, under_[i]);
             }
         }
-        painter_.setValues(under_[side_ == Side::B ? 1 : 0]);
-        if (differs) {
-            painter_.setReference(under_[1]);
+        painter_.setValues(under_[side]);
+        if (isTransparent) {
+            layUnder(alphas_[side], viewport_, painter_.size(), averages, under_[1 - side]);
+        }
+        if (differs || isTransparent) {
+            painter_.setReference(under_[isTransparent ? 1 - side : 1]);
         }
         laid_ = true;
     }
@@ -320,7 +327,10 @@ void ViewSession::draw()
     pass.top = covered.low.y;
     pass.right = covered.high.x;
     pass.bottom = covered.high.y;
-    pass.shownAs = static_cast<std::uint32_t>(differs ? ShownAs::Difference : as == ShownAs::Ids ? ShownAs::Color : as);
+    pass.shownAs = isTransparent ? kShownAsSurfaces
+                                 : static_cast<std::uint32_t>(differs              ? ShownAs::Difference
+                                                              : as == ShownAs::Ids ? ShownAs::Color
+                                                                                   : as);
     pass.scale = isExposed() ? static_cast<float>(std::exp2(exposure())) : 1.0F;
     pass.tone = static_cast<std::uint32_t>(isToned() ? tone_ : Tone::None);
     pass.low = shown_.range.low;

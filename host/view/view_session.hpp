@@ -80,6 +80,7 @@ private:
     std::vector<double> lights_;     // factors of A's light groups
     std::string lightsError_;        // of A with them
     std::array<Picture, 2> values_;  // of the layer, A's and B's; empty where a film has none
+    std::array<Picture, 2> alphas_;  // that they are multiplied by; empty where they are not
     Shown shown_;
     Viewport viewport_;
     bool isFitted_ = true;

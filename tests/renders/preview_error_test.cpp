@@ -9,6 +9,8 @@
 #include "tests/support/preview_fixture.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -124,6 +126,24 @@ TEST_F(PreviewTest, ADenoisedPictureIsTransparentToo)
     ASSERT_TRUE(denoised);
     EXPECT_EQ(countOthers(shown, overCheckerboard(showDenoised(film(1), *denoised))), 0);
     EXPECT_GT(countOthers(shown, overCheckerboard(film(1))), 20) << "the noisy one";
+}
+
+// The same of files in `glim view`.
+TEST_F(PreviewTest, AFilmThatIsViewedIsTransparentToo)
+{
+    const Film transparent = render("--spp 8 --environment 1,1,1 --environment-background off --zoom 0.5");
+    GlimCall session = call("", {});
+    session.arguments = {"view", "r.exr", "--size", "96x72", "--script", "script"};
+    const Pixels expected = overCheckerboard(transparent);
+    int others = -1;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    session.signalWhen = [&](const std::string&) {
+        others = countOthers(windowOf(screen.pixels()), expected);
+        return others == 0 || std::chrono::steady_clock::now() > end;
+    };
+    session.signal = SIGTERM;
+    EXPECT_EQ(runGlim(session).err, "");
+    EXPECT_EQ(others, 0);
 }
 
 }  // namespace
