@@ -20,17 +20,6 @@ std::vector<std::string> catching(std::vector<std::string> options)
     return options;
 }
 
-// A film's picture over black.
-Pixels shownOf(const Film& film)
-{
-    Pixels shown;
-    for (const PixelMoments& pixel : pictureOf(film)) {
-        const Rgb8 color = displayColor(pixel, Aov::Radiance, {}, {});
-        shown.push_back({color[0], color[1], color[2]});
-    }
-    return shown;
-}
-
 std::ptrdiff_t countClear(const Film& film)
 {
     return std::ranges::count_if(pictureOf(film), [](const PixelMoments& pixel) { return pixel.alpha < 0.1F; });
@@ -44,7 +33,7 @@ TEST_F(PreviewTest, ShowsAndWritesWhatCatchersCatch)
     EXPECT_EQ(film(1).identity.settings, expected.identity.settings);
     EXPECT_FALSE(film(1).showsBackground);
     EXPECT_TRUE(readFileBytes(folder / "cornell_spheres-001.png") == readFileBytes(folder / "r.png")) << "with its alpha";
-    EXPECT_EQ(countOthers(shown, shownOf(expected)), 0);
+    EXPECT_EQ(countOthers(shown, overCheckerboard(expected)), 0);
     EXPECT_GT(countClear(expected), 1000);
 }
 
@@ -56,7 +45,7 @@ TEST_F(PreviewTest, ShowsManySamplesOfCatchers)
     const Pixels shown = windowAtWriting(screen, "0 samples 300\n0 key P\n", catching({"--spp", "300"}));
     const Film expected = render("--spp 300 --catcher white");
     EXPECT_TRUE(sameBits(film(1), expected));
-    EXPECT_EQ(countOthers(shown, shownOf(expected)), 0);
+    EXPECT_EQ(countOthers(shown, overCheckerboard(expected)), 0);
 }
 
 // Nor does a render denoise them.

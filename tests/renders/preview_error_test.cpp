@@ -20,8 +20,6 @@ namespace {
 
 const std::string kToErrors = "0 key V\n0 key V\n0 key V\n0 key V\n0 key V\n0 key V\n";  // it is the last of seven layers
 
-std::array<int, 3> shownAs(const Rgb8& color) { return {color[0], color[1], color[2]}; }
-
 std::vector<std::string> listOf(const std::string& options)
 {
     std::istringstream words(options);
@@ -33,19 +31,8 @@ Pixels errorsOf(const Film& film, double target)
     const Picture picture = makePicture(film);
     Pixels expected;
     for (const float error : mapErrors(picture, robustRadiance(film))) {
-        expected.push_back(shownAs(roundToBytes(errorColor(static_cast<double>(error), target))));
-    }
-    return expected;
-}
-
-// Of light, alone or denoised.
-Pixels overCheckerboard(const Film& film)
-{
-    Pixels expected;
-    for (std::uint32_t i = 0; i < film.pixels.size(); ++i) {
-        const Rgba8 color = displaySurfaces(film.pixels[i], Aov::Radiance, {}, {});
-        const glm::vec3 shown = overCheckers({color[0], color[1], color[2]}, film.pixels[i].alpha, i % film.width, i / film.width);
-        expected.push_back(shownAs(roundToBytes(shown)));
+        const Rgb8 color = roundToBytes(errorColor(static_cast<double>(error), target));
+        expected.push_back({color[0], color[1], color[2]});
     }
     return expected;
 }

@@ -139,6 +139,29 @@ GltfBuilder posedTriangle()
     return builder;
 }
 
+GltfBuilder variedTriangle()
+{
+    GltfBuilder builder;
+    builder.append("materials", {{"name", "clay"}});
+    builder.append("materials", {{"name", "red"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}});
+    builder.document["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "day"}}, {{"name", "night"}}};
+    const std::size_t mesh = builder.addTriangleMesh();
+    json& primitive = builder.document["meshes"][mesh]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {1}}}};
+    builder.addNode({{"mesh", mesh}});
+    builder.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {0, 5, 0}}});
+    const std::size_t cloud =
+        builder.addMesh({{"attributes", {{"POSITION", builder.addVec3({0, 0, 1, 0, 1, 1, 0.5F, 0.5F, 1})}}}, {"mode", 0}});
+    builder.addNode({{"mesh", cloud}});
+    builder.document["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_variants"};
+    builder.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    const std::size_t times = builder.addAccessor(toBytes<float>({0, 1}), kFloat, "SCALAR", 2);
+    builder.append("animations", {{"samplers", {{{"input", times}, {"output", builder.addVec3({0, 0, 0, 2, 3, 0})}}}},
+                                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+    return builder;
+}
+
 std::string writeTemporary(const std::string& name, const std::string& content)
 {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();

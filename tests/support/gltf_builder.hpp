@@ -56,6 +56,8 @@ GltfBuilder oneTriangle(nlohmann::json node = nlohmann::json::object());
 
 // A triangle with a skin of two joints and a morph target; animation 0 turns a joint and moves the target's weight.
 GltfBuilder posedTriangle();
+// A triangle that moves for a second and has the variants "day" and "night", three points, and a lamp.
+GltfBuilder variedTriangle();
 
 // Writes below the test's own temporary folder; returns the path.
 std::string writeTemporary(const std::string& name, const std::string& content);

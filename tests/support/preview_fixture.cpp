@@ -1,6 +1,9 @@
 #include "tests/support/preview_fixture.hpp"
 
+#include "host/image/png.hpp"
+#include "host/render/composite.hpp"
 #include "host/render/film_file.hpp"
+#include "shaders/shared/display_colors.h"
 
 #include <algorithm>
 #include <chrono>
@@ -125,6 +128,18 @@ Pixels cornerOf(const Pixels& shown, std::size_t width, std::size_t height)
         corner.insert(corner.end(), row, row + static_cast<std::ptrdiff_t>(width));
     }
     return corner;
+}
+
+Pixels overCheckerboard(const Film& film)
+{
+    Pixels expected;
+    for (const PixelMoments& pixel : pictureOf(film)) {
+        const auto i = static_cast<std::uint32_t>(expected.size());
+        const Rgba8 color = displaySurfaces(pixel, Aov::Radiance, {}, {});
+        const Rgb8 shown = roundToBytes(overCheckers({color[0], color[1], color[2]}, pixel.alpha, i % film.width, i / film.width));
+        expected.push_back({shown[0], shown[1], shown[2]});
+    }
+    return expected;
 }
 
 int countOthers(const Pixels& a, const Pixels& b)

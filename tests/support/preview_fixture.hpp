@@ -58,6 +58,9 @@ private:
     std::string numbered(int number) const;
 };
 
+// A film's light as the window shows it where its picture is transparent.
+Pixels overCheckerboard(const Film& film);
+
 // How many pixels differ by more than one step of eight bits in a channel (rounding in float and in double may differ by one); -1
 // if the sizes differ.
 int countOthers(const Pixels& a, const Pixels& b);

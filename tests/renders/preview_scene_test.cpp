@@ -1,0 +1,58 @@
+// What the window's panel of the scene changes: `glim render` makes the same by the options that C prints. Nothing is loaded again.
+#include "tests/support/gltf_builder.hpp"
+#include "tests/support/preview_fixture.hpp"
+
+#include <fstream>
+#include <sstream>
+
+namespace glim::test {
+namespace {
+
+// Where the controls are is known from a look at the window.
+class PreviewSceneTest : public PreviewTest {
+protected:
+    PreviewSceneTest()
+    {
+        width = 640;
+        height = 480;
+        panels = true;
+        scene = folder / "varied.gltf";
+        std::ofstream(scene) << variedTriangle().toGltf();
+    }
+
+    // With the panel of the scene open, and C and P at the end.
+    std::string change(const std::string& script, const std::vector<std::string>& more) const
+    {
+        std::vector<std::string> options{"--spp", "1"};
+        options.insert(options.end(), more.begin(), more.end());
+        const GlimRun session = run("0 samples 1\n0 click 389,471\n0.2 samples 1\n" + script + "0.3 samples 1\n0 key C\n0 key P\n0 close\n", options);
+        EXPECT_EQ(session.err.find("loaded again"), std::string::npos);
+        const std::string printed = firstLine(session.out);
+        EXPECT_TRUE(sameBits(film(1), render("--spp 1 " + printed))) << printed;
+        return printed;
+    }
+};
+
+TEST_F(PreviewSceneTest, TurnsScalesAndHidesTheEnvironment)
+{
+    const std::string options = change("0 drag left 420,348 500,348\n0 drag left 430,371 480,371\n0.2 click 395,394\n", {"--environment", "studio"});
+    EXPECT_NE(options.find(" --environment studio "), std::string::npos) << options;
+    EXPECT_NE(options.find(" --environment-rotation "), std::string::npos) << options;
+    EXPECT_NE(options.find(" --environment-strength "), std::string::npos) << options;
+    EXPECT_NE(options.find(" --environment-background off"), std::string::npos) << options;
+}
+
+// One drag is one change to be undone.
+TEST_F(PreviewSceneTest, DragsTheSunAndUndoesIt)
+{
+    const std::string drags = "0 click 395,417\n0.3 click 458,348\n0.2 drag left 300,200 360,180\n0.2 drag left 300,200 360,180\n0.2 samples 1\n";
+    const std::string twice = change(drags, {"--environment", "studio"});
+    EXPECT_NE(twice.find(" --sun 90,60,3"), std::string::npos) << twice;
+    removePictures();
+    std::ofstream(scene) << variedTriangle().toGltf();
+    const std::string once = change(drags + "0 key Z\n", {"--environment", "studio"});
+    EXPECT_NE(once.find(" --sun 67.5,52.5,3"), std::string::npos) << once;
+}
+
+}  // namespace
+}  // namespace glim::test
