@@ -1,24 +1,34 @@
 # The only rule that makes SPIR-V: glslang, then NoContraction on every float operation, then spirv-val.
 #
-#   glim_embed_shaders(TARGET NAMESPACE name SOURCES a.comp b.comp ...)
+#   glim_embed_shaders(TARGET [UNMARKED] NAMESPACE name SOURCES a.comp b.comp ... INCLUDES folder ...)
 #
 # makes a static library with one `extern const EmbeddedShader` per file (host/gpu/embedded_shader.hpp), declared in
-# the generated header `<name>.hpp` as glim::<name>::<file stem>.
+# the generated header `<name>.hpp` as glim::<name>::<file stem>. UNMARKED: without NoContraction, as the kernels of others are.
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# Of a preview with --shaders as well (host/preview/compile_shader.cpp).
-set(GLIM_GLSL_OPTIONS --quiet -V --target-env vulkan1.2)
-list(JOIN GLIM_GLSL_OPTIONS "\", \"" quotedOptions)
-file(CONFIGURE OUTPUT generated/glsl_options.h CONTENT "#define GLIM_GLSL_OPTIONS \"${quotedOptions}\"\n")
+# In every folder, where the function is called.
+set(GLIM_GLSL_OPTIONS --quiet -V --target-env vulkan1.2 CACHE INTERNAL "")
 
-add_executable(mark_floats ${CMAKE_CURRENT_LIST_DIR}/mark_floats.cpp ${PROJECT_SOURCE_DIR}/host/spirv/builder.cpp
-    ${PROJECT_SOURCE_DIR}/host/spirv/expand.cpp ${PROJECT_SOURCE_DIR}/host/spirv/mark.cpp ${PROJECT_SOURCE_DIR}/host/spirv/module.cpp)
-target_include_directories(mark_floats PRIVATE ${PROJECT_SOURCE_DIR})
+get_filename_component(root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
+add_executable(mark_floats ${root}/tools/mark_floats.cpp ${root}/host/spirv/builder.cpp ${root}/host/spirv/expand.cpp
+    ${root}/host/spirv/mark.cpp ${root}/host/spirv/module.cpp)
+target_include_directories(mark_floats PRIVATE ${root})
+target_compile_features(mark_floats PRIVATE cxx_std_20)
 target_link_libraries(mark_floats PRIVATE SPIRV-Tools)
 
 function(glim_embed_shaders target)
-    cmake_parse_arguments(ARG "" "NAMESPACE" "SOURCES" ${ARGN})
+    cmake_parse_arguments(ARG "UNMARKED" "NAMESPACE" "SOURCES;INCLUDES" ${ARGN})
+    get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR} DIRECTORY)
+    set(includes "")
+    foreach(folder IN LISTS ARG_INCLUDES)
+        get_filename_component(folder ${folder} ABSOLUTE)
+        list(APPEND includes -I${folder})
+    endforeach()
+    set(finish mark_floats)
+    if(ARG_UNMARKED)
+        set(finish ${CMAKE_COMMAND} -E copy)
+    endif()
     set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target})
     file(MAKE_DIRECTORY ${directory})
     set(header "#pragma once\n#include \"host/gpu/embedded_shader.hpp\"\nnamespace glim::${ARG_NAMESPACE} {\n")
@@ -31,9 +41,8 @@ function(glim_embed_shaders target)
         # The depfile names the .plain file, and Ninja believes a depfile only if it names the first output.
         add_custom_command(
             OUTPUT ${spirv}.plain ${spirv}
-            COMMAND ${GLSLANG_VALIDATOR} ${GLIM_GLSL_OPTIONS} -I${PROJECT_SOURCE_DIR}/shaders
-                    -I${PROJECT_SOURCE_DIR}/tests/support --depfile ${spirv}.d -o ${spirv}.plain ${source}
-            COMMAND mark_floats ${spirv}.plain ${spirv}
+            COMMAND ${GLSLANG_VALIDATOR} ${GLIM_GLSL_OPTIONS} ${includes} --depfile ${spirv}.d -o ${spirv}.plain ${source}
+            COMMAND ${finish} ${spirv}.plain ${spirv}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spirv}
             DEPFILE ${spirv}.d
             DEPENDS ${source} mark_floats
@@ -56,5 +65,6 @@ const EmbeddedShader @stem@{"@stem@", @stem@_words, @stem@_wordsEnd};
     file(CONFIGURE OUTPUT ${source} CONTENT "${definitions}" @ONLY)
     set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${compiled}")
     add_library(${target} STATIC ${source})
-    target_include_directories(${target} PUBLIC ${directory} ${PROJECT_SOURCE_DIR})
+    target_include_directories(${target} PUBLIC ${directory} ${root})
+    target_compile_features(${target} PUBLIC cxx_std_20)
 endfunction()

@@ -25,7 +25,7 @@ filterFor() {
 
 # What a test of a kernel may be made of, a line each: time, inode (editors replace files), name.
 listSources() {
-    (cd "$root" && find shaders tests/kernels tests/support -type f -printf '%T@ %i %p\n' 2>/dev/null | LC_ALL=C sort)
+    (cd "$root" && find shaders tests/kernels tests/support tests/harness -type f -printf '%T@ %i %p\n' 2>/dev/null | LC_ALL=C sort)
 }
 
 # watch FILE FILTER: until a signal ends it. FILE is one that findWatched prints.
@@ -76,7 +76,7 @@ isChanged() {
 noteChange() {
     local kernel isIncluded=
     case $1 in
-        "$source" | tests/support/*.[ch]pp)
+        "$source" | tests/support/*.[ch]pp | tests/harness/*.[ch]pp)
             isStale=1
             findKernels
             return

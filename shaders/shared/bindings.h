@@ -71,10 +71,7 @@ GLIM_CONST uint kBindNoisy = 50u;
 GLIM_CONST uint kBindPooled = 51u;
 GLIM_CONST uint kBindDistances = 52u;
 GLIM_CONST uint kBindSums = 53u;
-// tests
-GLIM_CONST uint kBindCases = 30u;
-GLIM_CONST uint kBindReport = 31u;
-GLIM_CONST uint kBindResults = 32u;
+// 30 to 32 are those of test kernels (tests/harness/interface.h)
 
 GLIM_CONST uint kSpecWorkgroup = 0u;
 GLIM_CONST uint kSpecFeatures = 1u;            // kFeatureSpheres ...: what the scene needs, the lower 32 bits

@@ -1,6 +1,6 @@
 #include "host/flatten/albedo_table.hpp"
 
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include "host/render/allocate_samples.hpp"
 #include "host/render/block_queue.hpp"
 #include "shaders/shared/limits.h"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Intervals hold the truth as often as they claim: counted over simulated benches, within binomial limits.
 #include "host/bench/bootstrap.hpp"
 #include "host/measure/confidence.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/noisy_picture.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "host/scene/choose_origin.hpp"
 
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/scene_types.h"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

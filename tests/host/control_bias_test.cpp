@@ -1,6 +1,6 @@
 // The interval that control pixels give: simulated renders whose bias is known.
 #include "host/measure/control_bias.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include "host/error.hpp"
 #include "host/image/shrink_image.hpp"
 #include "host/image/srgb.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/encode_images.hpp"
 #include "tests/support/expect_message.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // H3, H43: the host rounds products and sums one by one, as its flags ask. Where it does not, the watertight test leaks.
 #include "places.h"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 #include <glm/glm.hpp>

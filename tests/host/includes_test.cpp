@@ -76,6 +76,11 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kOwners{
     {"backends/imgui", {"gpu"}},
 };
 
+// What the harness of tests takes of glim, besides host/gpu and what that stands on: a file that stands on nothing.
+const std::string kTakenByHarness = "tests/harness/files.cmake";
+const std::set<std::string> kForHarness{"host/measure/confidence.hpp", "host/measure/confidence.cpp"};
+const std::set<std::string> kGenerated{"harness_places.h", "kernels.hpp", "specializer.h"};
+
 // A library whose templates cost seconds in every file that includes it.
 const std::string kCommandLineLibrary = "CLI/", kCommandLineOwner = "host/cli/command.cpp";
 
@@ -282,9 +287,54 @@ void findNameDefects(const std::vector<Source>& sources, std::vector<std::string
     }
 }
 
+std::set<std::string> listTakenByHarness(const std::vector<Source>& sources)
+{
+    static const std::regex kComment("#[^\n]*"), kPath(R"([\w/]+\.\w+)");
+    std::set<std::string> taken;
+    for (const Source& source : sources) {
+        if (source.path == kTakenByHarness) {
+            const std::string text = std::regex_replace(source.text, kComment, "");
+            taken.insert(std::sregex_token_iterator(text.begin(), text.end(), kPath), {});
+        }
+    }
+    return taken;
+}
+
+// From the project root, as compilers find it.
+std::string resolve(const std::string& target, const std::string& includer)
+{
+    const bool beside = target.find('/') == std::string::npos || startsWith(target, "..");
+    const std::filesystem::path folder = beside                             ? std::filesystem::path(includer).parent_path()
+                                         : startsWith(includer, "shaders/") ? "shaders"
+                                                                            : "";
+    return (folder / target).lexically_normal().generic_string();
+}
+
+// The harness and what it takes of glim include each other alone, so that they are a library for others.
+void findHarnessDefects(const std::vector<Source>& sources, std::vector<std::string>& defects)
+{
+    const std::set<std::string> taken = listTakenByHarness(sources), below = findAllBelow("gpu");
+    for (const std::string& path : taken) {
+        if (startsWith(path, "host/") && !below.count(part(path, 1)) && !kForAll.count(path) && !kForHarness.count(path)) {
+            defects.push_back(kTakenByHarness + ": " + path + " is nothing that host/gpu stands on");
+        }
+    }
+    for (const Source& source : sources) {
+        const bool own = startsWith(source.path, "tests/harness/") && !startsWith(source.path, "tests/harness/example/") &&
+                         std::filesystem::path(source.path).extension() != ".md";
+        for (const Include& include : own || taken.count(source.path) ? findIncludes(source.text) : std::vector<Include>()) {
+            const std::string target = resolve(include.target, source.path);
+            if (include.quoted && !startsWith(target, "tests/harness/") && !taken.count(target) && !kGenerated.count(include.target)) {
+                defects.push_back(source.path + ": " + include.target + " is not among what " + kTakenByHarness + " lists");
+            }
+        }
+    }
+}
+
 std::vector<std::string> findDefects(const std::vector<Source>& sources)
 {
     std::vector<std::string> defects;
+    findHarnessDefects(sources, defects);
     findNameDefects(sources, defects);
     for (const Source& source : sources) {
         findIncludeDefects(source, defects);
@@ -345,6 +395,9 @@ TEST(Includes, WhatIsAllowedPasses)
              Example{"host/gpu/device_class.cpp", "// llvmpipe, SwiftShader\n"},
              Example{"host/gpu/instance.cpp", "throw DeviceError(\"Debian's mesa-vulkan-drivers\");\n"},
              Example{"shaders/shared/types.h", "#include \"vocabulary.h\"\n#include <cstdint>\n"},
+             Example{"tests/harness/kernel_run.cpp", "#include \"tests/harness/kernel_run.hpp\"\n#include \"harness_places.h\"\n"},
+             Example{"tests/harness/expect.glsl", "#include \"interface.h\"\n"},
+             Example{"tests/harness/files.cmake", "# host/render/film.cpp\nset(A host/gpu/device.cpp host/measure/confidence.cpp)\n"},
          }) {
         for (const std::string& defect : findDefects({{path, text}})) {
             ADD_FAILURE() << defect;
@@ -365,7 +418,7 @@ TEST(Includes, EveryViolationIsFound)
              Example{"host/render/renderer.cpp", "#include \"host/measure/picture.hpp\"\n"},
              Example{"host/measure/picture.cpp", "#include \"host/window/window.hpp\"\n"},
              Example{"host/cli/render.cpp", "#include \"host/main.cpp\"\n"},
-             Example{"host/main.cpp", "#include \"tests/support/statistics.hpp\"\n"},
+             Example{"host/main.cpp", "#include \"tests/harness/statistics.hpp\"\n"},
              Example{"host/cli/render.cpp", "#include \"tools/setup.h\"\n"},
              Example{"host/cli/render.cpp", "#include \"render.hpp\"\n"},
              Example{"host/cli/render.cpp", "#include \"shaders/lib/warp.glsl\"\n"},
@@ -394,6 +447,10 @@ TEST(Includes, EveryViolationIsFound)
              Example{"tests/host/merge_test.cpp", "#include <CLI/CLI.hpp>\n"},
              Example{"host/cli/render_report.cpp", "#include <nlohmann/json.hpp>\n"},
              Example{"host/bench/bench_file.hpp", "#include <nlohmann/json_fwd.hpp>\n"},
+             Example{"tests/harness/kernel_run.hpp", "#include \"host/render/kernel_set.hpp\"\n"},
+             Example{"tests/harness/statistics.cpp", "#include \"tests/support/test_data.hpp\"\n"},
+             Example{"tests/harness/expect.glsl", "#include \"access/pass.glsl\"\n"},
+             Example{"tests/harness/files.cmake", "set(A host/gpu/device.cpp host/render/film.cpp)\n"},
          }) {
         EXPECT_EQ(findDefects({{path, text}}).size(), 1U) << path << "\n" << text;
     }

@@ -1,5 +1,5 @@
 #include "host/scene/make_tangents.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Motions while the shutter is open: what they are between keys, how closely they follow a file, and boxes around what moves.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/place_instances.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/moving_file.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "host/flatten/piecewise_constant.hpp"
 
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <gtest/gtest.h>
 

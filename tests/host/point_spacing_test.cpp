@@ -1,6 +1,6 @@
 // The distance to the nearest neighbour in a cloud of points.
 #include "host/scene/point_spacing.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <gtest/gtest.h>
 

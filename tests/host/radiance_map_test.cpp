@@ -2,8 +2,8 @@
 
 #include "host/error.hpp"
 #include "host/image/exr.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/expect_message.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <OpenEXR/ImfChannelList.h>

@@ -1,7 +1,7 @@
 // H23: which normal decides on which side of smooth glass a ray is. The renderer's rule in double, and one that asks the face's
 // normal. In a ball of 80 triangles under a sky of 1, every path should bring home 1.
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/test_meshes.hpp"
 

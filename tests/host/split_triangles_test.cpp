@@ -3,8 +3,8 @@
 #include "host/bvh/build_bvh.hpp"
 #include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

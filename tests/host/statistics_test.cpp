@@ -1,4 +1,4 @@
-#include "tests/support/statistics.hpp"
+#include "tests/harness/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Slope, floor and efficiency of simulated benches; the slope test finds the flaws that are planted.
 #include "host/bench/summarize_bench.hpp"
 #include "host/bench/fit_error.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/noisy_picture.hpp"
 #include "tests/support/simulated_bench.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/path_types.h"
 #include "shaders/shared/pixel_moments.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/blocks.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/parameters_buffer.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -39,7 +39,7 @@ TEST(AnisotropicFurnaceTest, WhiteMetalsReflectAllLight)
     }
     const AlbedoBuffer albedos;
     KernelTest test(test_kernels::anisotropic_furnace_test);
-    test.buffers(albedos.bound()).features(kFeaturePrincipled | kFeatureAnisotropy).cases(cases).resultsOf<float>(cases.size());
+    test.features(kFeaturePrincipled | kFeatureAnisotropy).buffers(albedos.bound()).cases(cases).resultsOf<float>(cases.size());
     test.run();
     const std::vector<float> results = test.results<float>();
     const auto [least, most] = std::ranges::minmax_element(results);

@@ -1,11 +1,11 @@
 // Sampled directions of the lobes and of the whole material: chi-square against their densities, weights against quadrature, corners.
 #include "shaders/shared/features.h"
 #include "test_kernels.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/albedo_buffer.hpp"
 #include "tests/support/any_bsdf.h"
 #include "tests/support/kernel_test.hpp"
 #include "tests/support/materials.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -137,7 +137,7 @@ public:
         KernelTest test(test_kernels::bsdf_sampling_test);
         test.parameters().seed = seed;
         test.pass().sampleCount = count;
-        test.buffers(albedos_.bound()).features(features).cases(cases).resultsOf<SampledDirection>(threads);
+        test.features(features).buffers(albedos_.bound()).cases(cases).resultsOf<SampledDirection>(threads);
         test.threads(static_cast<std::uint32_t>(threads)).run();
         return test.results<SampledDirection>();
     }
@@ -156,7 +156,7 @@ public:
         }
         const std::size_t threads = sides.size() * kCells * kCells;
         KernelTest test(test_kernels::bsdf_cells_test);
-        test.buffers(albedos_.bound()).features(getFeatures(cases_)).cases(cells).resultsOf<glm::vec4>(threads);
+        test.features(getFeatures(cases_)).buffers(albedos_.bound()).cases(cells).resultsOf<glm::vec4>(threads);
         test.threads(static_cast<std::uint32_t>(threads)).run();
         return test.results<glm::vec4>();
     }

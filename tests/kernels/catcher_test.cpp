@@ -26,7 +26,7 @@ struct Result {
 std::vector<Result> find(const std::vector<Case>& cases, FeatureMask features)
 {
     KernelTest test(test_kernels::catcher_test);
-    test.cases(cases).resultsOf<Result>(cases.size()).features(features).specialize(kSpecChosen, 0);
+    test.features(features).cases(cases).resultsOf<Result>(cases.size()).specialize(kSpecChosen, 0);
     test.pass().sampleCount = kSamples;
     test.run();
     return test.results<Result>();

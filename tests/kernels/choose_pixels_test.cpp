@@ -5,9 +5,9 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 #include "shaders/shared/path_types.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/luminance_cases.hpp"
 #include "tests/support/parameters_buffer.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "test_kernels.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/traverse_cases.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The two ways in which a path finds light, by light sampling and by chance, against radiance, pdfs and weights in double.
 #include "shaders/shared/course_types.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // H41: the driver's functions are as exact as Vulkan promises, which bounds what the tests beside this one grant.
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

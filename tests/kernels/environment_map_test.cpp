@@ -2,10 +2,10 @@
 
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

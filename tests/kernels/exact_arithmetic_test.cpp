@@ -4,10 +4,10 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
 #include "test_kernels.hpp"
-#include "tests/support/arithmetic_device.hpp"
+#include "tests/harness/arithmetic_device.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -46,7 +46,7 @@ std::vector<float> albedosOf(const std::vector<MaterialCase>& materials, float t
     }
     const AlbedoBuffer albedos;
     KernelTest test(test_kernels::glass_furnace_test);
-    test.buffers(albedos.bound()).features(kFeaturePrincipled | kFeatureTransmission | kFeatureRoughTransmission | layers).cases(cases);
+    test.features(kFeaturePrincipled | kFeatureTransmission | kFeatureRoughTransmission | layers).buffers(albedos.bound()).cases(cases);
     test.resultsOf<float>(cases.size()).run();
     return test.results<float>();
 }

@@ -3,8 +3,8 @@
 #include "shaders/shared/guide_types.h"
 #include "shaders/shared/luminance.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include "host/render/guide_map.hpp"
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/guide_records.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Directions by guide or BSDF are weighted by the density of both, as is the light sample. Without a guide there is the BSDF alone.
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/albedo_buffer.hpp"
 #include "tests/support/guide_records.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

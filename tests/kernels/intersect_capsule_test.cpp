@@ -1,9 +1,9 @@
 // The oracle is the distance to the segment in extended precision. A capsule is convex, so along a line that distance falls and then rises.
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include "host/bvh/collapse_bvh.hpp"
 #include "host/flatten/pack_nodes.hpp"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/course_types.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/guide_types.h"
 #include "test_kernels.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/scene_on_device.hpp"
-#include "tests/support/statistics.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The importance of a node of the light tree: the formula by angles in double, and a bound of what any emitter in the node sends.
 #include "shaders/shared/scene_types.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

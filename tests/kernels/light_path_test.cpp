@@ -1,12 +1,12 @@
 // Light paths begin with the power that their lamp sends to the targets, and lamps are chosen by that power.
 #include "host/flatten/environment_map.hpp"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/irradiance_formulas.hpp"
 #include "tests/support/named.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Vertices of light paths: what they bring to a pixel, by the pixel's size on the surface, and how they scatter on.
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/named.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
-#include "tests/support/statistics.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

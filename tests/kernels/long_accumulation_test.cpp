@@ -5,10 +5,10 @@
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
+#include "tests/harness/random.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/parameters_buffer.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

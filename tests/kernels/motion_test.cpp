@@ -2,7 +2,7 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/test_meshes.hpp"
 

@@ -1,10 +1,10 @@
 // Where paths continue, against the laws of each material in double.
 #include "shaders/shared/course_types.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ protected:
     KernelTest test(const EmbeddedShader& shader = test_kernels::next_ray_test)
     {
         KernelTest test = scene_->test(shader);
-        test.buffers({{kBindNote, &note_}}).features(scene_->flat.features | kFeatureMirror | kFeatureDielectric);
+        test.features(scene_->flat.features | kFeatureMirror | kFeatureDielectric).buffers({{kBindNote, &note_}});
         test.parameters().seed = 3;
         test.parameters().maxBounces = 64;
         return test;

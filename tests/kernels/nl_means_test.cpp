@@ -1,8 +1,8 @@
 // The denoiser against the same sums in double precision, and what its weights promise.
 #include "host/denoise/nl_means.hpp"
 #include "shaders/shared/denoise_types.h"
-#include "tests/support/arithmetic_device.hpp"
-#include "tests/support/test_device.hpp"
+#include "tests/harness/arithmetic_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Unit vectors in 32 bits come back within half a step of the code, on both halves of the octahedron and on its edges.
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

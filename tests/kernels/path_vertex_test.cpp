@@ -1,7 +1,7 @@
 // A path's vertex on a floor that lies in the plane y = 0, below a point light or an environment, against what it is on paper.
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Powers, exponentials and angles against double, in ulp: half of 2^-23 of the result's power of two.
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "kernels.hpp"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/limits.h"
-#include "tests/support/arithmetic_device.hpp"
-#include "tests/support/test_device.hpp"
+#include "tests/harness/arithmetic_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 #include <gtest/gtest.h>
 

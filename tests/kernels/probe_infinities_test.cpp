@@ -2,8 +2,8 @@
 // numbers that stand for lost ones take their answers away, and each that is missing is refused.
 #include "host/render/check_infinities.hpp"
 
+#include "tests/harness/test_device.hpp"
 #include "tests/support/expect_message.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Film and directions by OpenCV's camera models and by the equirectangular one: against OpenCV itself, and against formulas in double.
 #include "host/flatten/flatten_scene.hpp"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "harness/interface.h"
 #include "shared/bindings.h"
 
 layout(local_size_x_id = kSpecWorkgroup) in;

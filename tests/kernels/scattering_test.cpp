@@ -1,9 +1,9 @@
 // Scattering in a medium: distances, directions and what one channel's choice makes of the others.
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Single-sided surfaces are not there for rays from behind of a path from the camera, nor for those of a light path that go the other way.
 #include "test_kernels.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/test_meshes.hpp"
 

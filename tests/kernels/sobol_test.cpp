@@ -1,9 +1,9 @@
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Splats: sums in fixed point of 64 bits, against integers of the host.
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 

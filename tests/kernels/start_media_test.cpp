@@ -1,7 +1,7 @@
 #include "host/flatten/start_media.hpp"
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "test_kernels.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/kernel_test.hpp"
 #include "tests/support/luminance_cases.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

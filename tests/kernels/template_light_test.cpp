@@ -1,8 +1,8 @@
 // The light's samples against its density: chi-square, the integral over all directions, and the irradiance that they estimate.
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The lobe's samples against its density and its value: chi-square, integrals over all directions, energy.
 #include "shaders/shared/vocabulary.h"
 #include "test_kernels.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/kernel_test.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

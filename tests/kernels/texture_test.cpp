@@ -1,6 +1,6 @@
 #include "test_kernels.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/scene_on_device.hpp"
 #include "tests/support/test_meshes.hpp"
 #include "tests/support/wrapped_texel.hpp"

@@ -2,10 +2,10 @@
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/limits.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // --adaptive: which pixels get samples; each sample is the one that a uniform render takes.
 #include "host/flatten/flatten_scene.hpp"
 #include "shaders/shared/limits.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/single_samples.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Surfaces that are transparent in places: whatever the tree and the schedule, and as calculated where that is possible. Normal maps too.
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
 

@@ -2,9 +2,9 @@
 #include "host/denoise/nl_means.hpp"
 #include "host/render/identify.hpp"
 #include "places.h"
-#include "tests/support/arithmetic_device.hpp"
+#include "tests/harness/arithmetic_device.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

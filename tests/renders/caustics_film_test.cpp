@@ -3,10 +3,10 @@
 #include "host/render/film_file.hpp"
 #include "host/render/merge_films.hpp"
 #include "host/render/parameters.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // --schedule, --path-capacity and --caustics.
+#include "tests/harness/test_device.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

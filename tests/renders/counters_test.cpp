@@ -2,9 +2,9 @@
 #include "host/bench/make_hills.hpp"
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/bench_scenes.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

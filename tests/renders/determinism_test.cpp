@@ -3,11 +3,11 @@
 #include "host/render/merge_films.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 #include "host/scene/frame_camera.hpp"
 #include "host/scene/make_studio.hpp"
 #include "shaders/shared/luminance.h"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
 
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 #include "host/render/learn_guide.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

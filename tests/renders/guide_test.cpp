@@ -7,10 +7,10 @@
 #include "host/render/build_guide.hpp"
 #include "host/render/learn_guide.hpp"
 #include "host/render/replay.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/guide_records.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Whole pictures with lights that touch walls, tiny lights, a million lights, and a small object in a large hall.
 #include "host/measure/z_test.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/irradiance_formulas.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/statistics.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Hard cases of materials and textures: at grazing angles, next to limits, and in great numbers.
 #include "host/scene/make_studio.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/hard_case.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
 #include "tests/support/wrapped_texel.hpp"

@@ -2,11 +2,11 @@
 #include "host/render/identify.hpp"
 #include "host/flatten/start_media.hpp"
 #include "host/image/cryptomatte.hpp"
+#include "tests/harness/statistics.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/prepare_in_memory.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/statistics.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

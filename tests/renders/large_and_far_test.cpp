@@ -2,11 +2,11 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/flatten/primitives.hpp"
 #include "host/render/renderer.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Which kind of paths finds caustics with less noise, by an estimate from a small picture.
 #include "host/render/light_path_gain.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/caustic_films.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

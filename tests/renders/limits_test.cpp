@@ -5,10 +5,10 @@
 #include "host/render/pass_size.hpp"
 #include "host/render/prepare_scene.hpp"
 #include "shaders/shared/bindings.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // H42: glim refuses a picture whose loops the driver cut short.
 #include "host/error.hpp"
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

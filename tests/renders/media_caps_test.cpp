@@ -1,8 +1,8 @@
 // Solids within each other: a path keeps four media. A fifth is counted, not silently forgotten.
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

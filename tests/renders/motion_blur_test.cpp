@@ -5,10 +5,10 @@
 #include "host/measure/confidence.hpp"
 #include "host/measure/error_estimate.hpp"
 #include "host/measure/z_test.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

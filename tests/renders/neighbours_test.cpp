@@ -4,11 +4,11 @@
 #include "host/measure/error_estimate.hpp"
 #include "host/scene/load_gltf.hpp"
 #include "places.h"
+#include "tests/harness/statistics.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/statistics.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

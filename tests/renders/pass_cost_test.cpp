@@ -1,8 +1,8 @@
 // What a pass costs beside its kernels, counted without a clock: on a GPU the device idles while the host submits, waits and copies.
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/vulkan_calls.hpp"
 
 #include <gtest/gtest.h>

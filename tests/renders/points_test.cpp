@@ -2,8 +2,8 @@
 #include "host/flatten/build_scene_bvh.hpp"
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/describe_primitive.hpp"
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/test_meshes.hpp"
 

@@ -1,9 +1,9 @@
 // A view that rests is guided, by a guide that is learned in short steps while the window answers.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/preview/guide_learner.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/preview_fixture.hpp"
-#include "tests/support/test_device.hpp"
 
 namespace glim::test {
 namespace {

@@ -3,8 +3,8 @@
 #include "host/preview/scene_pictures.hpp"
 #include "host/render/film_file.hpp"
 #include "host/render/film_pictures.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/preview_fixture.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -3,9 +3,9 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/job/film_report.hpp"
 #include "host/measure/error_estimate.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/suspects.hpp"
 #include "host/scene/load_gltf.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/run_glim.hpp"
 #include "tests/support/single_samples.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/measure/error_estimate.hpp"
 #include "host/render/film_file.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // H24: --roulette in a closed room of albedo a whose walls emit 1, where a path's value is known at every length.
+#include "tests/harness/statistics.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Volumes that scatter: closed objects in a furnace, slabs against adding and doubling (tests/oracle/slab.py), and what is cut or not
 // reached.
 #include "host/flatten/flatten_scene.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/oracle_cases.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

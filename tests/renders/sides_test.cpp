@@ -1,7 +1,7 @@
 // Back faces of single-sided surfaces are not there, whatever the ray: pictures that are known on paper, and estimators that must agree.
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/named.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
 
 #include <gtest/gtest.h>

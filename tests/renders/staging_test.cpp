@@ -1,10 +1,10 @@
 // What a discrete GPU does runs on the device at hand: the copies, since the host does not map its memory, and the rules of its class.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/gpu/commands.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Passes that are started while the device traces the one before.
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/pass_tracer.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

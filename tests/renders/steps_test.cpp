@@ -5,9 +5,10 @@
 #include "host/render/ray_tracer.hpp"
 #include "shaders/shared/bindings.h"
 #include "test_kernels.hpp"
+#include "tests/harness/interface.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Layers of the first surface: places project to the pixels that show them, and flow is what depth and pose say.
 #include "host/render/surfaces.hpp"
 #include "host/render/seen_instances.hpp"
+#include "tests/harness/random.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/build_scene.hpp"
 #include "tests/support/named.hpp"
 #include "tests/support/prepare_in_memory.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <gtest/gtest.h>

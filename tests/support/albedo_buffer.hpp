@@ -4,7 +4,7 @@
 #include "host/flatten/albedo_table.hpp"
 #include "host/gpu/buffer.hpp"
 #include "shaders/shared/bindings.h"
-#include "tests/support/test_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 #include <map>
 

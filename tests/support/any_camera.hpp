@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/scene/scene.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 namespace glim {
 

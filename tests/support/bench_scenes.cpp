@@ -1,7 +1,7 @@
 #include "tests/support/bench_scenes.hpp"
 
+#include "tests/harness/random.hpp"
 #include "tests/support/build_scene.hpp"
-#include "tests/support/random.hpp"
 #include "tests/support/test_meshes.hpp"
 
 #include <cmath>

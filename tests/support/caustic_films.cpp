@@ -1,7 +1,7 @@
 #include "tests/support/caustic_films.hpp"
 
 #include "host/measure/z_test.hpp"
-#include "tests/support/test_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,58 +1,11 @@
-// Expectations on the device. Each one takes one line. The host reports a failure at that line, and also if the check never ran. A test
-// kernel calls endTest() last.
+// The harness's expectations in kernels that have the push constants of a pass and the parameters of a render.
 #ifndef GLIM_TESTS_EXPECT
 #define GLIM_TESTS_EXPECT
 
 #include "access/pass.glsl"
-#include "lib/canary.glsl"
-#include "report.h"
 
-layout(set = 0, binding = kBindReport, scalar) buffer ReportBuffer { Report report; };
-
-#define TEST_THREAD gl_GlobalInvocationID.x
-
-// The host passes the number of cases as the pixel count.
-bool isTestThread()
-{
-    return TEST_THREAD < pass.pixelCount;
-}
-
-void expectThat(uint line, bool holds, float actual, float expected, float tolerance)
-{
-    atomicOr(report.lines[line / 32u], 1u << (line % 32u));
-    if (!holds) {
-        uint place = atomicAdd(report.failureCount, 1u);
-        if (place < kMaxFailures) {
-            report.failures[place] = Failure(line, TEST_THREAD, actual, expected, tolerance);
-        }
-    }
-}
-
-bool isNear(float actual, float expected, float tolerance)
-{
-    return abs(actual - expected) <= tolerance;  // false for NaN
-}
-
-// The tolerance is absolute.
-#define EXPECT_NEAR(actual, expected, tolerance) \
-    expectThat(__LINE__, isNear(actual, expected, tolerance), actual, expected, tolerance)
-// The tolerance is relative to the expected value.
-#define EXPECT_CLOSE(actual, expected, relative) \
-    expectThat(__LINE__, isNear(actual, expected, abs(expected) * (relative)), actual, expected, abs(expected) * (relative))
-// The tolerance is for the distance between two vectors.
-#define EXPECT_NEAR_VECTOR(actual, expected, tolerance) \
-    expectThat(__LINE__, length((actual) - (expected)) <= (tolerance), length((actual) - (expected)), 0.0, tolerance)
-#define EXPECT_EQUAL(actual, expected) \
-    expectThat(__LINE__, (actual) == (expected), float(actual), float(expected), 0.0)
-#define EXPECT_TRUE(condition) expectThat(__LINE__, condition, 0.0, 1.0, 0.0)
-
-void endTest()
-{
-    report.sentinel = 0u;
-    if (isLoopBudgetSpent(render.canarySteps)) {
-        atomicAdd(report.loopsSpent, 1u);
-    }
-    atomicAdd(report.threads, 1u);
-}
+#define TEST_COUNT pass.pixelCount
+#define CANARY_STEPS render.canarySteps
+#include "harness/expect.glsl"
 
 #endif

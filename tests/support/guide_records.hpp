@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/render/build_guide.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <bit>
 #include <cmath>

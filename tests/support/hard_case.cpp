@@ -1,6 +1,6 @@
 #include "tests/support/hard_case.hpp"
 
-#include "tests/support/statistics.hpp"
+#include "tests/harness/statistics.hpp"
 
 #include <array>
 #include <cstdio>

@@ -1,10 +1,10 @@
 #include "tests/support/irradiance.hpp"
 
 #include "test_kernels.hpp"
+#include "tests/harness/statistics.hpp"
 #include "tests/support/hard_case.hpp"
 #include "tests/support/render_scene.hpp"
 #include "tests/support/scene_on_device.hpp"
-#include "tests/support/statistics.hpp"
 
 #include <gtest/gtest.h>
 

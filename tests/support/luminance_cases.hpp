@@ -2,7 +2,7 @@
 #pragma once
 
 #include "shaders/shared/pixel_moments.h"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <cmath>
 #include <optional>

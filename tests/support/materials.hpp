@@ -1,8 +1,8 @@
 // Materials for tests of the BSDF: a plain one, and random ones.
 #pragma once
 
+#include "tests/harness/random.hpp"
 #include "tests/support/material_case.h"
-#include "tests/support/random.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 
 #include "host/gpu/buffer.hpp"
 #include "shaders/shared/course_types.h"
-#include "tests/support/test_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 namespace glim {
 

@@ -5,7 +5,7 @@
 #include "host/flatten/start_media.hpp"
 #include "host/measure/confidence.hpp"
 #include "shaders/shared/limits.h"
-#include "tests/support/test_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -41,7 +41,7 @@ struct SceneOnDevice {
         KernelTest test(kernel);
         test.buffers(device.buffers());
         test.parameters().camera = camera;
-        test.specialize(kSpecStackLevels, flat.stackLevels).features(flat.features).specialize(kSpecTexelViews, 1);
+        test.features(flat.features).specialize(kSpecStackLevels, flat.stackLevels).specialize(kSpecTexelViews, 1);
         test.parameters().triangleCount = flat.triangleCount;
         test.parameters().instanceCount = static_cast<std::uint32_t>(flat.instances.size() / kInstanceTexels);
         test.parameters().firstInstanceRef = flat.firstInstanceRef;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/bench/run_bench.hpp"
-#include "tests/support/random.hpp"
+#include "tests/harness/random.hpp"
 
 #include <cmath>
 #include <numeric>

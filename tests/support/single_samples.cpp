@@ -3,8 +3,8 @@
 #include "host/flatten/flatten_scene.hpp"
 #include "host/render/renderer.hpp"
 #include "shaders/shared/path_types.h"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/render_scene.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <gtest/gtest.h>
 

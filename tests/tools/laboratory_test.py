@@ -74,7 +74,7 @@ class NewTest(Project):
                 self.assertNotRegex(self.read(file), "(?i)template_?" + kind)
                 self.assertLessEqual(max(map(len, self.read(file).splitlines())), 140)
             subprocess.run(["glslangValidator", "--quiet", "-V", "--target-env", "vulkan1.2", "-I" + self.path("shaders"),
-                            "-I" + self.path("tests/support"), "-o", os.devnull, self.path(expected[0])], check=True)
+                            "-I" + self.path("tests/support"), "-I" + self.path("tests"), "-o", os.devnull, self.path(expected[0])], check=True)
 
     def expect_refusal(self, said, *words):
         before = list_files(self.root)

@@ -1,6 +1,6 @@
-#include "tests/support/arithmetic_device.hpp"
+#include "tests/harness/arithmetic_device.hpp"
 
-#include "tests/support/test_device.hpp"
+#include "tests/harness/test_device.hpp"
 
 #include <cstdlib>
 

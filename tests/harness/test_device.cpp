@@ -1,10 +1,11 @@
-#include "tests/support/test_device.hpp"
+#include "tests/harness/test_device.hpp"
 
-#include "places.h"
+#include "harness_places.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 
 namespace glim {
 namespace {
@@ -33,18 +34,32 @@ private:
     bool hasComplained_ = false;
 };
 
+std::unique_ptr<Device> openDevice(const VulkanInstance& instance)
+{
+    const char* const chosen = std::getenv("GLIM_DEVICE");
+    if (chosen == nullptr || *chosen == '\0') {
+        return std::make_unique<Device>(instance);
+    }
+    try {
+        return std::make_unique<Device>(instance, chosen);
+    } catch (const InputError& error) {
+        throw InputError(MessageId::UnknownName, {part::place("GLIM_DEVICE"), "=", part::value(chosen),
+                                                  ": no such device; there are: ", part::expected(error.message().expected), "."});
+    }
+}
+
 }  // namespace
 
 Device& testDevice()
 {
-    [[maybe_unused]] static const int keptApart = setenv("GLIM_CACHE_DIR", GLIM_BUILD_DIR "/cache", 1);  // from the user's
+    [[maybe_unused]] static const int keptApart = setenv("GLIM_CACHE_DIR", HARNESS_CACHE, 1);  // from the user's
     static const VulkanInstance instance;
-    static Device device(instance);
+    static const std::unique_ptr<Device> device = openDevice(instance);
     [[maybe_unused]] static const bool watched = [] {
         testing::UnitTest::GetInstance()->listeners().Append(new MessageWatch(instance));
         return true;
     }();
-    return device;
+    return *device;
 }
 
 }  // namespace glim
