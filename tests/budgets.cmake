@@ -200,6 +200,8 @@ set(onlyInCi
     Blurs/DenoisedErrorTest.*
     # The study's live page in a browser. By default: its server, without one.
     StudyBrowserTest
+    # The harness in a project of others. By default: all tests of kernels use it.
+    HarnessTest
     # Farms of several processes, folders for other machines, SPIR-V's optimizer for each feature,
     # and the module for Python beside the command line. By default: what farms keep in files, and films and parts of scenes in Python.
     FarmTest
