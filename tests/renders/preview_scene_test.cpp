@@ -54,5 +54,42 @@ TEST_F(PreviewSceneTest, DragsTheSunAndUndoesIt)
     EXPECT_NE(once.find(" --sun 67.5,52.5,3"), std::string::npos) << once;
 }
 
+// The second of two variants in the list.
+TEST_F(PreviewSceneTest, ChoosesAVariant)
+{
+    const std::string options = change("0 click 500,440\n0.3 click 420,416\n", {"--environment", "studio"});
+    EXPECT_TRUE(options.ends_with(" --variant night --environment studio")) << options;
+}
+
+// A floor, another colour for it, and a look at it as a shadow catcher.
+TEST_F(PreviewSceneTest, PutsAFloorUnderTheScene)
+{
+    const std::string floor = "0 click 395,463\n0.3 drag left 400,463 380,463\n";
+    const std::string shown = change(floor, {"--environment", "studio"});
+    EXPECT_NE(shown.find(" --floor lowest --floor-color "), std::string::npos) << shown;
+    EXPECT_TRUE(film(1).catcher.empty());
+    removePictures();
+    std::ofstream(scene) << variedTriangle().toGltf();
+    const std::string caught = change(floor + "0.2 click 460,440\n", {"--environment", "studio"});
+    EXPECT_TRUE(caught.ends_with(" --catcher floor")) << caught;
+    EXPECT_FALSE(film(1).catcher.empty());
+}
+
+// Studio, none, constant, and a map beside the scene.
+TEST_F(PreviewSceneTest, OpensAnotherEnvironment)
+{
+    std::ofstream(folder / "sky.hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
+                                                        << std::string("\x80\x40\x20\x81\x20\x80\x40\x81", 8);
+    const std::string options = change("0 click 500,325\n0.3 click 420,410\n", {"--environment", "studio"});
+    EXPECT_NE(options.find("sky.hdr"), std::string::npos) << options;
+}
+
+// The points, which are chosen by a click, are hidden; then the triangle is isolated, and all shows again.
+TEST_F(PreviewSceneTest, HidesAndIsolates)
+{
+    const std::string options = change("", {"--environment", "studio"});
+    EXPECT_TRUE(options.ends_with(" --environment studio")) << options;
+}
+
 }  // namespace
 }  // namespace glim::test
