@@ -55,9 +55,25 @@ public:
 };
 
 PanelPainter::PanelPainter(const Device& device, VkFormat format)
-    : pass_(createPass(device, format)),
-      pool_(createPool(device))
+    : device_(device),
+      pass_(createPass(device, format)),
+      pool_(device)
 {
+    open();
+}
+
+PanelPainter::~PanelPainter() = default;
+
+void PanelPainter::renewFonts()
+{
+    backend_.reset();
+    open();
+}
+
+void PanelPainter::open()
+{
+    const Device& device = device_;
+    pool_ = createPool(device);
     ImGui_ImplVulkan_InitInfo info{};
     info.Instance = device.instance().handle();
     info.PhysicalDevice = device.physical();
@@ -78,8 +94,6 @@ PanelPainter::PanelPainter(const Device& device, VkFormat format)
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 #endif
 }
-
-PanelPainter::~PanelPainter() = default;
 
 void PanelPainter::draw(Commands& commands, VkFramebuffer framebuffer, VkExtent2D size, ImDrawData& panels) const
 {

@@ -15,6 +15,9 @@ public:
     PanelPainter(const PanelPainter&) = delete;
     PanelPainter& operator=(const PanelPainter&) = delete;
 
+    // To be called when the context's fonts are others.
+    void renewFonts();
+
     // For framebuffers with one colour attachment.
     VkRenderPass pass() const { return pass_.get(); }
     // The framebuffer's image goes from the layout of a colour attachment to that for presenting.
@@ -22,7 +25,9 @@ public:
 
 private:
     class Backend;  // ImGui's
+    void open();
 
+    const Device& device_;
     Owned<VkRenderPass, vkDestroyRenderPass> pass_;
     Owned<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
     std::unique_ptr<Backend> backend_;

@@ -34,6 +34,9 @@ public:
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
+    // To be called when the fonts of ImGui's context are others.
+    void renewFonts() { painter_.renewFonts(); }
+
     // Scales `image` to the window and shows it with `panels` over it. `width` and `height` are the window's size in pixels, for surfaces
     // that do not know it. Returns false if nothing was shown because the window has no area or is changing; the caller may try again
     // later.

@@ -82,8 +82,12 @@ void ViewSession::handle(const Event& event)
     using Kind = Event::Kind;
     switch (event.kind) {
     case Kind::Close: closing_ = true; break;
-    case Kind::Resize: resize(); break;
-    case Kind::KeyUp: break;
+    case Kind::Resize:
+        screen_.takeScale();
+        resize();
+        break;
+    case Kind::KeyUp:
+    case Kind::Drop: break;
     case Kind::KeyDown:
         waiting_.push_back(event.when);
         press(event.key);
@@ -309,7 +313,7 @@ void ViewSession::draw()
         const bool averages = as != ShownAs::Ids && as != ShownAs::Depth;  // means of ids, or of a depth and nothing, mean nothing
         for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
             if (differs || side_ == (i == 0 ? Side::A : Side::B)) {
-                layUnder(values_[i], viewport_, painter_.size(), averages, under_[i]);
+                layUnder({films_.size(), values_[i].radiance}, viewport_, painter_.size(), averages, under_[i]);
             }
         }
         painter_.setValues(under_[side]);

@@ -6,11 +6,11 @@
 #include "host/view/view.hpp"
 #include "host/view/view_panel.hpp"
 #include "host/view/viewed_films.hpp"
-#include "host/view/viewport.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
 #include "host/window/screen.hpp"
+#include "host/window/viewport.hpp"
 
 namespace glim {
 

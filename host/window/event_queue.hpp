@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -13,14 +14,15 @@ namespace glim {
 
 // Positions are in pixels of the picture; (0, 0) is its upper left corner.
 struct Event {
-    enum class Kind { KeyDown, KeyUp, Move, ButtonDown, ButtonUp, Scroll, FocusLost, Resize, Close };
-    Kind kind;  // Resize also if the picture may be gone, so that it is shown again
+    enum class Kind { KeyDown, KeyUp, Move, ButtonDown, ButtonUp, Scroll, FocusLost, Resize, Drop, Close };
+    Kind kind;  // Resize also if the picture may be gone, so that it is shown again, and if the display's scale is another
     std::chrono::steady_clock::time_point when;
-    char key = 0;              // for KeyDown and KeyUp: an upper-case letter, a digit, a sign or kEscape
-    glm::dvec2 position{0.0};  // of the mouse, for Move, ButtonDown, ButtonUp and Scroll
-    int button = 0;            // for ButtonDown and ButtonUp: kLeftButton, kRightButton or kMiddleButton
-    bool shift = false;        // for ButtonDown: whether the key is held
-    double notches = 0.0;      // for Scroll: away from the user
+    char key = 0;                // for KeyDown and KeyUp: an upper-case letter, a digit, a sign or kEscape
+    glm::dvec2 position{0.0};    // of the mouse, for Move, ButtonDown, ButtonUp and Scroll
+    int button = 0;              // for ButtonDown and ButtonUp: kLeftButton, kRightButton or kMiddleButton
+    bool shift = false;          // for ButtonDown: whether the key is held
+    double notches = 0.0;        // for Scroll: away from the user
+    std::filesystem::path file;  // for Drop
 };
 
 inline constexpr int kLeftButton = 0, kRightButton = 1, kMiddleButton = 2;

@@ -19,11 +19,18 @@ Gui::Gui(float scale)
     : last_(std::chrono::steady_clock::now())
 {
     ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // the window remembers nothing
+    ImGui::GetIO().IniFilename = nullptr;  // the window remembers nothing
+    setScale(scale);
+}
+
+void Gui::setScale(float scale)
+{
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    fonts.Clear();
     ImFontConfig font;
     font.SizePixels = std::max(1.0F, std::floor(kFontPixels * scale));
-    io.Fonts->AddFontDefault(&font);
+    fonts.AddFontDefault(&font);
+    ImGui::GetStyle() = ImGuiStyle();
     ImGui::GetStyle().ScaleAllSizes(scale);
 }
 

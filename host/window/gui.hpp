@@ -18,6 +18,9 @@ public:
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
+    // Not within a frame. Whoever draws the frames takes the new fonts.
+    void setScale(float scale);
+
     // Tells the mouse's state to the next frame. Between a press and a release there must be one.
     void point(const Event& event);
     // Builds a frame of a window of this size, with the panels that `build` makes by ImGui's functions.

@@ -19,6 +19,9 @@ public:
     const Device& device() const { return device_; }
     Gui& gui() { return gui_; }
 
+    // Text and panels get the size that the window's display asks for, if it is another than before.
+    void takeScale();
+
     // Shows `picture` with the panels of the last frame. Returns false, after a pause, if the window is hidden or changing: the caller may
     // try again.
     bool present(const StorageImage& picture);
@@ -28,6 +31,7 @@ private:
     VulkanInstance instance_;
     Surface surface_;
     Device device_;
+    float scale_;
     Gui gui_;
     Swapchain swapchain_;
 };

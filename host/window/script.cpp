@@ -51,6 +51,14 @@ public:
         expect(name.size() == 1 && (std::isalnum(static_cast<unsigned char>(name[0])) || name[0] == '+' || name[0] == '-'));
         return good_ ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[0]))) : '\0';
     }
+    std::string rest()
+    {
+        std::string text;
+        std::getline(stream_ >> std::ws, text);
+        text.erase(text.find_last_not_of(" \t\r") + 1);
+        expect(!text.empty());
+        return text;
+    }
     void expect(bool right) { good_ = good_ && right; }
     bool isGoodToTheEnd()
     {
@@ -87,7 +95,8 @@ bool readArguments(const std::string& name, Words& words, ScriptStep& step)
     static const std::map<std::string, Kind> kKinds = {{"key", Kind::Key},         {"press", Kind::Press},     {"release", Kind::Release},
                                                        {"drag", Kind::Drag},       {"scroll", Kind::Scroll},   {"click", Kind::Click},
                                                        {"resize", Kind::Resize},   {"iconify", Kind::Iconify}, {"restore", Kind::Restore},
-                                                       {"samples", Kind::Samples}, {"close", Kind::Close}};
+                                                       {"samples", Kind::Samples}, {"close", Kind::Close},     {"scale", Kind::Scale},
+                                                       {"drop", Kind::Drop}};
     const auto found = kKinds.find(name);
     if (found == kKinds.end()) {
         return false;
@@ -108,6 +117,11 @@ bool readArguments(const std::string& name, Words& words, ScriptStep& step)
     case Kind::Scroll: step.notches = words.number(); break;
     case Kind::Click: step.from = words.point(); break;
     case Kind::Resize: step.size = words.size(); break;
+    case Kind::Scale:
+        step.scale = static_cast<float>(words.number());
+        words.expect(step.scale > 0.0F && step.scale <= 16.0F);
+        break;
+    case Kind::Drop: step.file = words.rest(); break;
     case Kind::Samples: {
         const double samples = words.number();
         words.expect(samples >= 1.0 && samples <= 2147483648.0);
@@ -147,9 +161,10 @@ std::vector<ScriptStep> readScript(const std::filesystem::path& file)
                 MessageId::Malformed,
                 {part::file(file), ", ", part::place("line " + std::to_string(number)), ": ", part::quoted(line), ": expected ",
                  part::expected("a delay in seconds and a step, as in \"0.5 key V\", \"0 drag left 10,20 30,40\", \"0 scroll 1\", "
-                                "\"0 click 5,5\", \"1 resize 300x200\", \"0 samples 16\" or \"0 close\""),
+                                "\"0 click 5,5\", \"1 resize 300x200\", \"0 drop a.glb\", \"0 samples 16\" or \"0 close\""),
                  "."});
         }
+        step.file = step.kind == Kind::Drop ? file.parent_path() / step.file : "";
         steps.push_back(step);
     }
     return steps;

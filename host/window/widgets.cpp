@@ -1,16 +1,18 @@
 #include "host/window/widgets.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace glim {
 namespace {
 
 constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 constexpr float kOpacity = 0.8F;
-constexpr float kExposureRange = 10.0F;  // stops to either side of 0
-constexpr float kWidth = 17.0F;          // of the controls, in heights of the font
-constexpr float kMessageWidth = 40.0F;   // the same
-constexpr float kSmallest = 0.25F;       // of the help's text, relative to the font
+constexpr float kExposureRange = 10.0F;               // stops to either side of 0
+constexpr float kWidth = 17.0F;                       // of the controls, in heights of the font
+constexpr float kMessageWidth = 40.0F;                // the same
+constexpr ImU32 kBeside = IM_COL32(51, 51, 51, 255);  // as `glim view` has it
+constexpr float kSmallest = 0.25F;                    // of the help's text, relative to the font
 
 // How much smaller the table and the title must be for the panel to fit into the window; its margins stay.
 float helpScale(std::span<const HelpLine> lines, float below)
@@ -56,6 +58,21 @@ void endPanel()
 {
     ImGui::PopItemWidth();
     ImGui::End();
+}
+
+void fillBeside(const Rectangle& shown)
+{
+    const ImVec2 end = ImGui::GetIO().DisplaySize;
+    const ImVec2 low(static_cast<float>(shown.low.x), static_cast<float>(shown.low.y));
+    const ImVec2 high(static_cast<float>(shown.high.x), static_cast<float>(shown.high.y));
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (const auto& [from, to] :
+         {std::pair(ImVec2(0.0F, 0.0F), ImVec2(end.x, low.y)), std::pair(ImVec2(0.0F, high.y), end),
+          std::pair(ImVec2(0.0F, low.y), ImVec2(low.x, high.y)), std::pair(ImVec2(high.x, low.y), ImVec2(end.x, high.y))}) {
+        if (from.x < to.x && from.y < to.y) {
+            list.AddRectFilled(from, to, kBeside);
+        }
+    }
 }
 
 bool beginInset(const char* title)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/render/aov.hpp"
+#include "host/window/viewport.hpp"
 
 #include <imgui.h>
 
@@ -16,6 +17,9 @@ bool beginPanel(const char* title);
 // The same in the lower right corner, closed at first.
 bool beginSidePanel(const char* title);
 void endPanel();
+
+// Dark grey behind all panels and beside this part of the window.
+void fillBeside(const Rectangle& shown);
 
 // A panel in the upper right corner, which the mouse does not meet. ImGui::End follows in any case.
 bool beginInset(const char* title);

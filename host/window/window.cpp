@@ -90,7 +90,12 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double y) { self(w)->onScroll(y); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->onResize(); });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->onResize(); });
-    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w)->onResize(); });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float x, float y) { self(w)->onScale(std::max(x, y)); });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
+        for (int i = 0; i < count; ++i) {
+            self(w)->onDrop(files[i]);
+        }
+    });
     // A window without focus is not told when keys and buttons are released.
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int has) {
         if (has == GLFW_FALSE) {
@@ -98,7 +103,13 @@ Window::Window(const std::string& title, const glm::uvec2& size, EventQueue& eve
         }
     });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { self(w)->onClose(); });
+    float x = 1.0F, y = 1.0F;
+    glfwGetWindowContentScale(window_, &x, &y);
+    onScale(std::max(x, y));
     onResize();
+    if (pictureSize() != size) {  // it was made of as many coordinates of the screen
+        resize(size);
+    }
 }
 
 Window::~Window()
@@ -203,11 +214,22 @@ void Window::onButton(int button, int action, bool shift)
     push({.kind = kind, .position = cursor_, .button = button, .shift = shift});
 }
 
+PixelScale Window::pixelScale() const
+{
+    glm::ivec2 size(0);
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return PixelScale::of(size, pictureSize());
+}
+
+void Window::resize(const glm::uvec2& size)
+{
+    const glm::ivec2 onScreen = pixelScale().toScreen(size);
+    glfwSetWindowSize(window_, onScreen.x, onScreen.y);
+}
+
 void Window::onCursor(const glm::dvec2& position)
 {
-    int width = 0, height = 0;
-    glfwGetWindowSize(window_, &width, &height);
-    cursor_ = position * glm::dvec2(pictureSize()) / glm::max(glm::dvec2(1.0), glm::dvec2(width, height));
+    cursor_ = pixelScale().toPixels(position);
     push({.kind = Event::Kind::Move, .position = cursor_});
 }
 
@@ -219,11 +241,16 @@ void Window::onResize()
     glfwGetFramebufferSize(window_, &width, &height);
     pictureWidth_ = static_cast<std::uint32_t>(width);
     pictureHeight_ = static_cast<std::uint32_t>(height);
-    float x = 1.0F, y = 1.0F;
-    glfwGetWindowContentScale(window_, &x, &y);
-    contentScale_ = std::max(x, y);
     push({.kind = Event::Kind::Resize});
 }
+
+void Window::onScale(float scale)
+{
+    contentScale_ = scale;
+    push({.kind = Event::Kind::Resize});
+}
+
+void Window::onDrop(const std::filesystem::path& file) { push({.kind = Event::Kind::Drop, .file = file}); }
 
 void Window::onClose()
 {
@@ -237,7 +264,7 @@ void Window::carryOut(const Orders& orders)
         glfwSetWindowTitle(window_, orders.title->c_str());
     }
     if (orders.size) {
-        glfwSetWindowSize(window_, static_cast<int>(orders.size->x), static_cast<int>(orders.size->y));
+        resize(*orders.size);
     }
 }
 
@@ -284,7 +311,9 @@ void Window::perform(const ScriptStep& step)
         onButton(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, false);
         onButton(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, false);
         break;
-    case Kind::Resize: glfwSetWindowSize(window_, static_cast<int>(step.size.x), static_cast<int>(step.size.y)); break;
+    case Kind::Resize: resize(step.size); break;
+    case Kind::Scale: onScale(step.scale); break;
+    case Kind::Drop: onDrop(step.file); break;
     case Kind::Iconify: glfwIconifyWindow(window_); break;
     case Kind::Restore: glfwRestoreWindow(window_); break;
     case Kind::Samples: break;
@@ -302,10 +331,7 @@ void Window::drag(const ScriptStep& step)
     cursor_ = step.from;
     onButton(button, GLFW_PRESS, false);
     for (int i = 1; i <= kMoves; ++i) {
-        int width = 0, height = 0;
-        glfwGetWindowSize(window_, &width, &height);
-        const glm::dvec2 unit = glm::dvec2(width, height) / glm::max(glm::dvec2(1.0), glm::dvec2(pictureSize()));
-        onCursor(glm::mix(step.from, step.to, static_cast<double>(i) / kMoves) * unit);
+        onCursor(pixelScale().toScreen(glm::mix(step.from, step.to, static_cast<double>(i) / kMoves)));
     }
     onButton(button, GLFW_RELEASE, false);
 }

@@ -3,6 +3,7 @@
 
 #include "host/gpu/instance.hpp"
 #include "host/window/event_queue.hpp"
+#include "host/window/pixels.hpp"
 #include "host/window/script.hpp"
 
 #include <atomic>
@@ -17,7 +18,7 @@ namespace glim {
 
 class Window {
 public:
-    // Opens the window. User input goes to `events`. Throws InputError if there is no display.
+    // Opens the window, of a size in pixels. User input goes to `events`. Throws InputError if there is no display.
     Window(const std::string& title, const glm::uvec2& size, EventQueue& events);
     ~Window();
     Window(const Window&) = delete;
@@ -34,9 +35,9 @@ public:
     // The caller owns the result. Throws InputError if Vulkan cannot present in this window.
     VkSurfaceKHR createSurface(const VulkanInstance& instance) const;
     glm::uvec2 pictureSize() const { return {pictureWidth_.load(), pictureHeight_.load()}; }  // pixels
-    float contentScale() const { return contentScale_; }                                      // of text; above 1 on high-DPI displays
+    float contentScale() const { return contentScale_; }                                      // of text; 2 where pixels are half as wide
     void setTitle(const std::string& title);
-    void setSize(const glm::uvec2& size);
+    void setSize(const glm::uvec2& size);  // pixels
     // Tells scripts what the window shows: the samples of every pixel, whether sampling has ended, and how many events have been
     // handled since the start.
     void reportShown(std::uint64_t samples, bool ended, std::uint64_t events);
@@ -54,7 +55,11 @@ private:
     void onCursor(const glm::dvec2& position);
     void onScroll(double notches);
     void onResize();
+    void onScale(float scale);
+    void onDrop(const std::filesystem::path& file);
     void onClose();
+    PixelScale pixelScale() const;
+    void resize(const glm::uvec2& size);
     void push(Event event);
     void carryOut(const Orders& orders);
     bool isDue(const ScriptStep& step, double since) const;

@@ -4,7 +4,7 @@
 #include "host/render/film_pictures.hpp"
 #include "host/view/layers.hpp"
 #include "host/view/viewed_films.hpp"
-#include "host/view/viewport.hpp"
+#include "host/window/viewport.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -227,7 +227,7 @@ TEST(ViewportTest, LaysTheValuesOfTheSamePixels)
     for (const Viewport& viewport : {Viewport{1.0, {0, 0}}, Viewport{3.0, {4, 5}}, Viewport{2.3, {-6.4, 11.7}},
                                      Viewport{64.0, {-100, -100}}, Viewport{1.0, {100, 0}}, Viewport{5.0, {30.5, 20.25}}}) {
         std::vector<glm::vec3> values(std::size_t{window.x} * window.y, glm::vec3(-1.0F));
-        layUnder(picture, viewport, window, true, values);
+        layUnder({size, picture.radiance}, viewport, window, true, values);
         const Rectangle covered = coveredBy(viewport, size, window);
         for (std::uint32_t y = 0; y < window.y; ++y) {
             for (std::uint32_t x = 0; x < window.x; ++x) {
@@ -246,13 +246,13 @@ TEST(ViewportTest, MakesSmallerByTheMean)
 {
     const Picture picture = numbered(12, 9);
     std::vector<glm::vec3> values;
-    layUnder(picture, {1.0 / 3.0, {0, 0}}, {4, 3}, true, values);
+    layUnder({{12, 9}, picture.radiance}, {1.0 / 3.0, {0, 0}}, {4, 3}, true, values);
     for (std::uint32_t y = 0; y < 3; ++y) {
         for (std::uint32_t x = 0; x < 4; ++x) {
             EXPECT_EQ(values[y * 4 + x], glm::vec3(3 * x + 1, 3 * y + 1, 0));
         }
     }
-    layUnder(picture, {0.4, {0.3, 0.2}}, {6, 5}, true, values);  // of 2.5 pixels a side, one has two or three centres
+    layUnder({{12, 9}, picture.radiance}, {0.4, {0.3, 0.2}}, {6, 5}, true, values);  // of 2.5 pixels a side, one has two or three centres
     const Rectangle covered = coveredBy({0.4, {0.3, 0.2}}, {12, 9}, {6, 5});
     for (std::uint32_t y = covered.low.y; y < covered.high.y; ++y) {
         for (std::uint32_t x = covered.low.x; x < covered.high.x; ++x) {
@@ -266,7 +266,8 @@ TEST(ViewportTest, MakesSmallerByTheMean)
 TEST(ViewportTest, MakesSmallerByTheCentreWhereMeansAreNothing)
 {
     std::vector<glm::vec3> values;
-    layUnder(numbered(12, 9), {1.0 / 3.0, {0, 0}}, {4, 3}, false, values);
+    const Picture picture = numbered(12, 9);
+    layUnder({{12, 9}, picture.radiance}, {1.0 / 3.0, {0, 0}}, {4, 3}, false, values);
     for (std::uint32_t i = 0; i < 12; ++i) {
         EXPECT_EQ(values[i], glm::vec3(3 * (i % 4) + 1, 3 * (i / 4) + 1, 0));
     }
@@ -277,7 +278,8 @@ TEST(ViewportTest, APictureThinnerThanAPixelIsSeen)
     const Rectangle covered = coveredBy(fit({3000, 1}, {640, 480}), {3000, 1}, {640, 480});
     EXPECT_EQ(covered.high - covered.low, glm::uvec2(640, 1));
     std::vector<glm::vec3> values;
-    layUnder(numbered(3000, 1), fit({3000, 1}, {640, 480}), {640, 480}, true, values);
+    const Picture picture = numbered(3000, 1);
+    layUnder({{3000, 1}, picture.radiance}, fit({3000, 1}, {640, 480}), {640, 480}, true, values);
     EXPECT_NEAR(values[covered.low.y * 640 + 320].x, 1501.8F, 3.0F);
     const Rectangle outside = coveredBy({0.01, {-5, 700}}, {3, 3}, {640, 480});
     EXPECT_EQ(outside.high, outside.low) << "beside the window";

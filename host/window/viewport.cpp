@@ -1,4 +1,4 @@
-#include "host/view/viewport.hpp"
+#include "host/window/viewport.hpp"
 
 #include "host/bvh/parallel_for.hpp"
 
@@ -35,12 +35,12 @@ Span computeSpan(double low, double high, std::uint32_t count)
     return {middle, middle + 1};
 }
 
-glm::vec3 meanOf(const Picture& picture, const Span& columns, const Span& rows)
+glm::vec3 meanOf(const PictureValues& picture, const Span& columns, const Span& rows)
 {
     glm::vec3 sum(0.0F);
     for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
         for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
-            sum += picture.radiance[std::size_t{y} * picture.width + x];
+            sum += picture.values[std::size_t{y} * picture.size.x + x];
         }
     }
     const std::size_t count = std::size_t{rows.end - rows.begin} * (columns.end - columns.begin);
@@ -88,10 +88,11 @@ Rectangle coveredBy(const Viewport& viewport, const glm::uvec2& picture, const g
     return covered;
 }
 
-void layUnder(const Picture& picture, const Viewport& viewport, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values)
+void layUnder(const PictureValues& picture, const Viewport& viewport, const glm::uvec2& window, bool averages,
+              std::vector<glm::vec3>& values)
 {
     values.resize(std::size_t{window.x} * window.y);
-    const Rectangle covered = coveredBy(viewport, {picture.width, picture.height}, window);
+    const Rectangle covered = coveredBy(viewport, picture.size, window);
     // Half of what is averaged, in pixels of the window.
     const double half = averages && viewport.zoom < 1.0 ? 0.5 : 0.0;
     const auto spanAt = [&](std::uint32_t pixel, double corner, std::uint32_t count) {
@@ -100,11 +101,11 @@ void layUnder(const Picture& picture, const Viewport& viewport, const glm::uvec2
     };
     std::vector<Span> columns;
     for (std::uint32_t x = covered.low.x; x < covered.high.x; ++x) {
-        columns.push_back(spanAt(x, viewport.corner.x, picture.width));
+        columns.push_back(spanAt(x, viewport.corner.x, picture.size.x));
     }
     parallelFor(covered.high.y - covered.low.y, std::thread::hardware_concurrency(), [&](std::size_t row) {
         const auto y = covered.low.y + static_cast<std::uint32_t>(row);
-        const Span rows = spanAt(y, viewport.corner.y, picture.height);
+        const Span rows = spanAt(y, viewport.corner.y, picture.size.y);
         for (std::size_t i = 0; i < columns.size(); ++i) {
             values[std::size_t{y} * window.x + covered.low.x + i] = meanOf(picture, columns[i], rows);
         }

@@ -1,9 +1,12 @@
 // Where a picture lies in a window: pure functions of places and sizes in pixels.
 #pragma once
 
-#include "host/measure/picture.hpp"
+#include <glm/glm.hpp>
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace glim {
 
@@ -29,8 +32,14 @@ struct Rectangle {
 };
 Rectangle coveredBy(const Viewport& viewport, const glm::uvec2& picture, const glm::uvec2& window);
 
+// A picture's values, row by row.
+struct PictureValues {
+    glm::uvec2 size{0};
+    std::span<const glm::vec3> values;
+};
 // The picture's values under the window's pixels, row by row; those beside it are left as they are. A pixel of the window has the value
 // of the picture's pixel at its centre. If the picture is made smaller and `averages`, it has the mean of all that have their centre in it.
-void layUnder(const Picture& picture, const Viewport& viewport, const glm::uvec2& window, bool averages, std::vector<glm::vec3>& values);
+void layUnder(const PictureValues& picture, const Viewport& viewport, const glm::uvec2& window, bool averages,
+              std::vector<glm::vec3>& values);
 
 }  // namespace glim
