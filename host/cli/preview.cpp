@@ -13,12 +13,15 @@ namespace {
 struct WindowOptions : PictureOptions {
     std::optional<std::uint64_t> frames;
     std::optional<std::filesystem::path> script, shaders;
+    std::optional<glm::uvec2> window;
 };
 
 void addWindow(OptionTable& table, WindowOptions& options)
 {
     table.beginGroup("Output");
     addLook(table, options.look, "the window and the PNG", "none; neutral in the built-in studio");
+    table.add("--window", "WxH", "Pixels of the window; the picture keeps its size and is shown scaled [as the picture, which follows it]",
+              [&options](const OptionValue& value) { options.window = parseSize(value, "--window"); });
     addNumber<std::uint32_t>(table, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
                              [&options](std::uint32_t frames) { options.frames = frames; });
     table.addPath("--script", "FILE", "Replay the input that this file lists", options.script);
@@ -77,8 +80,8 @@ void addPreview(CommandLine& line)
         }
     });
     command.onRun([options] {
-        preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->camera, options->device, options->pose,
-                 options->field, options->projection, options->lens, options->look, options->settings,
+        preview({options->scene, makeLoadOptions(*options), options->split, options->size, options->window, options->camera,
+                 options->device, options->pose, options->field, options->projection, options->lens, options->look, options->settings,
                  options->guiding == GuidingChoice::On, options->frames, options->script, options->shaders});
         return ExitCode::Done;
     });

@@ -116,14 +116,14 @@ Option addSceneIndex(OptionTable& table, std::optional<std::size_t>& index)
                                     [&index](std::uint32_t value) { index = value; });
 }
 
-glm::uvec2 parseSize(const OptionValue& value)
+glm::uvec2 parseSize(const OptionValue& value, const std::string& option)
 {
     const std::string text = value.text();
     const std::vector<std::string> parts = value.split('x');
     glm::uvec2 size(0);
     const bool areNumbers = parts.size() == 2 && parseNumber(parts[0], size.x) && parseNumber(parts[1], size.y);
     if (!areNumbers || size.x == 0 || size.y == 0 || size.x > kMaxSide || size.y > kMaxSide) {
-        refuseValue("--size", text, areNumbers, "WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
+        refuseValue(option, text, areNumbers, "WIDTHxHEIGHT in pixels, each 1 to " + std::to_string(kMaxSide) + ", as in 640x480");
     }
     return size;
 }

@@ -32,7 +32,7 @@ struct FrameRange {
     std::uint32_t first = 0, last = 0, step = 1;
 };
 
-glm::uvec2 parseSize(const OptionValue& value);  // "640x480"
+glm::uvec2 parseSize(const OptionValue& value, const std::string& option = "--size");  // "640x480"
 // "0:256", begin < end <= most.
 std::pair<std::uint32_t, std::uint32_t> parseRange(const std::string& option, const OptionValue& value, std::uint32_t most);
 FrameRange parseFrames(const OptionValue& value);  // "1:250" or "1:250:5", first <= last

@@ -25,7 +25,7 @@ void FilmMeter::expose(const Film& film, Aov aov)
 
 void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
 {
-    const std::uint32_t samples = refiner.sampleCount();
+    const std::uint32_t samples = refiner.windowSampleCount();
     const bool isExposed = !options_.exposure && (aov == Aov::Radiance || aov == Aov::Albedo);
     const bool isRanged = aov == Aov::Depth || aov == Aov::SampleCount || aov == Aov::BvhSteps;
     const bool isFirst = (isRanged || isExposed) && measuredAov_ != aov;
@@ -47,9 +47,12 @@ void FilmMeter::measure(Refiner& refiner, Aov aov, bool isWaiting)
     if (aov == Aov::SampleCount) {
         range_.high = std::max(range_.high, 2.0F * range_.low);  // the scale should not show the present sweep alone
     }
+    if (refiner.scale() > 1 || aov == Aov::BvhSteps) {
+        return;
+    }
     const Picture picture = makePicture(film);
     const std::vector<glm::dvec3> likely = robustRadiance(picture.width, picture.height, picture.radiance, picture.variance);
-    if (const auto errors = estimateErrors(picture, likely); errors && errors->relMse > 0.0 && aov != Aov::BvhSteps) {
+    if (const auto errors = estimateErrors(picture, likely); errors && errors->relMse > 0.0) {
         const bool isWhole = std::ranges::all_of(film.pixels, [](const PixelMoments& pixel) { return pixel.blocks >= 2; });
         errors_.push_back({refiner.seconds(), errors->relMse, refiner.renderer().plan().pictureSamples(), isWhole});
         errorLayer_.take(picture, likely);

@@ -1,5 +1,5 @@
 // How the picture looks, and what is measured of the whole film for that. Copying a film takes time, so this is done now and then as its
-// samples grow.
+// samples grow, and not of a film that has more pixels than the window: it would take seconds.
 #pragma once
 
 #include "host/preview/error_layer.hpp"

@@ -174,6 +174,19 @@ TimeChoices changeTime(const std::vector<Animation>& animations, TimeChoices cho
     return choices;
 }
 
+PictureSize chooseSize(const std::vector<PictureSize>& sizes, PictureSize chosen)
+{
+    if (ImGui::BeginCombo("picture", toText(chosen).c_str())) {
+        for (const PictureSize& size : sizes) {
+            if (ImGui::Selectable(toText(size).c_str(), size == chosen)) {
+                chosen = size;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return chosen;
+}
+
 LensChoices changeLens(float widest, LensChoices choices)
 {
     ImGui::SliderFloat("aperture", &choices.radius, 0.0F, widest, choices.radius > 0.0F ? "radius %.3g m" : "pinhole",
@@ -225,6 +238,7 @@ PanelChoices showControls(const PanelFigures& figures, PanelChoices choices)
             choices.undo = ImGui::Button(("undo (" + counted(figures.changes, "change") + ")###undo").c_str());
         }
         ImGui::Separator();
+        choices.picture = chooseSize(figures.sizes, choices.picture);
         showFigures(figures);
         if (!figures.errors.empty() || choices.layer.isError) {
             ImGui::Separator();

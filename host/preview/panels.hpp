@@ -3,6 +3,7 @@
 
 #include "host/preview/error_target.hpp"
 #include "host/preview/lens_control.hpp"
+#include "host/preview/picture_size.hpp"
 #include "host/preview/scene_panel.hpp"
 #include "host/preview/surface_panel.hpp"
 #include "host/preview/timeline.hpp"
@@ -34,8 +35,9 @@ struct PanelFigures {
     std::string toTarget;  // how far the error is from the target; there if errors are
     bool canDenoise = false;
     std::vector<std::string> denoising;  // lines
-    glm::uvec2 size{0};
-    std::uint32_t scale = 1;  // the side of a film's pixel in pixels of the window
+    glm::uvec2 size{0};                  // of the picture
+    std::uint32_t scale = 1;             // the side of a film's pixel in pixels of the picture
+    std::vector<PictureSize> sizes;
     std::string device;
     std::vector<WindowLayer> layers;
     std::vector<std::string> cameras;
@@ -58,6 +60,7 @@ struct PanelChoices {
     TimeChoices time;
     bool denoises = true;
     bool showsGuide = false;
+    PictureSize picture;
     SurfaceChoices surface;
     SceneChoices scene;
     double target = 0.0;  // relMSE

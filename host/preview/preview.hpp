@@ -17,7 +17,8 @@ struct PreviewOptions {
     std::filesystem::path scene;
     LoadOptions load;
     SplitRule split = SplitRule::Sah;
-    std::optional<glm::uvec2> size;  // pixels; absent: the size that fits the camera
+    std::optional<glm::uvec2> size;    // pixels; absent: the size that fits the camera
+    std::optional<glm::uvec2> window;  // pixels; absent: the picture's size at first, and then the picture follows the window
     std::optional<std::string> camera, device;
     std::optional<Pose> pose;
     FieldOfView field;

@@ -13,9 +13,10 @@ constexpr double kPassSeconds = 0.1;
 constexpr std::uint32_t kPortion = 2;
 constexpr double kUncheckedSeconds = 0.02;
 constexpr double kMovingSeconds = 0.03;  // aim for a coarse picture: input, picture and presenting stay below 100 ms together
-constexpr double kAloneSeconds =
-    1.0;  // time after the last move until the halves are kept that a denoiser needs, and until a guide is learned
-constexpr double kStillSeconds = 0.15;  // time after the last move until the full size is started
+// Time after the last move until the halves are kept that a denoiser needs, until a guide is learned, and until a picture is started that
+// has more pixels than the window: its film alone takes seconds to make ready.
+constexpr double kAloneSeconds = 1.0;
+constexpr double kStillSeconds = 0.15;  // time after the last move until the full size is started, or as much as the window shows
 
 RenderSettings startingSettings(RenderSettings settings)
 {
@@ -76,13 +77,27 @@ void Refiner::aim(const Camera& camera, const glm::uvec2& size)
 void Refiner::show(const Camera& camera, const glm::uvec2& size)
 {
     aim(camera, size);
-    begin(movingScale_, true);
+    begin(movingScale_ * windowScale_, true);
 }
 
 void Refiner::showWhole(const Camera& camera, const glm::uvec2& size)
 {
     aim(camera, size);
     begin(1, false);
+}
+
+// The scale to go on with: first as many pixels as the window shows, and then all.
+std::uint32_t Refiner::nextScale() const
+{
+    const double rested = secondsBetween(moved_, Clock::now());
+    if (fresh_ || rested < kStillSeconds) {
+        return scale_;
+    }
+    if (scale_ > windowScale_) {
+        return windowScale_;
+    }
+    const bool isWhole = renderer_.plan().sampleCount() > 0;
+    return isWhole && (windowScale_ == 1 || rested > kAloneSeconds) ? 1 : scale_;
 }
 
 void Refiner::begin(std::uint32_t scale, bool fresh)
@@ -110,8 +125,8 @@ void Refiner::advance(const std::function<bool()>& shouldContinue)
 
 bool Refiner::refine(bool paused, const std::function<bool()>& shouldContinue)
 {
-    if (scale_ > 1 && !fresh_ && secondsBetween(moved_, Clock::now()) > kStillSeconds) {
-        begin(1, false);
+    if (const std::uint32_t next = nextScale(); next < scale_) {
+        begin(next, false);
     }
     const bool whole = renderer_.plan().sampleCount() > 0;
     if (isDone() || (whole && paused)) {

@@ -22,6 +22,8 @@ public:
     bool needsKernels(const Camera& camera, const glm::uvec2& size) const;
     // Of pictures that start from now on.
     void setLens(const Lens& lens) { lens_ = lens; }
+    // The same. Pictures of moves are at least so much smaller, a power of two: the window shows no more.
+    void setWindowScale(std::uint32_t scale) { windowScale_ = scale; }
     // To be called when the scene has changed. Kernels and buffers that serve it stay; show() follows.
     void renew();
     // Starts the picture of this camera in this size. It is coarse at first, since the camera may move on.
@@ -45,16 +47,19 @@ public:
     // The samples of each pixel of the picture in full size; 0 while it is coarse.
     std::uint32_t sampleCount() const { return scale_ == 1 ? renderer_.plan().sampleCount() : 0; }
     std::uint32_t scale() const { return scale_; }  // the side of a film pixel in pixels of the picture
-    double seconds() const { return seconds_; }     // spent on the picture
+    // Those of a picture that has as many pixels as the window can show; 0 while it has fewer or more.
+    std::uint32_t windowSampleCount() const { return scale_ == windowScale_ ? renderer_.plan().sampleCount() : 0; }
+    double seconds() const { return seconds_; }  // spent on the picture
     double samplesPerSecond() const { return speed_; }
     const FlatCamera& camera() const { return camera_; }
     Renderer& renderer() { return renderer_; }
 
 private:
-    static constexpr std::uint32_t kCoarsest = 8;
+    static constexpr std::uint32_t kCoarsest = 8;  // relative to windowScale_
     void aim(const Camera& camera, const glm::uvec2& size);
     FlatCamera flatten(const Camera& camera, const glm::uvec2& size) const;
     void chooseMovingScale(double seconds);
+    std::uint32_t nextScale() const;
     void begin(std::uint32_t scale, bool fresh);
     void advance(const std::function<bool()>& shouldContinue);
 
@@ -63,9 +68,9 @@ private:
     Lens lens_;
     FlatCamera camera_;
     glm::uvec2 size_{1, 1};
-    std::uint32_t scale_ = 1;
+    std::uint32_t scale_ = 1, windowScale_ = 1;
     bool fresh_ = false;
-    std::uint32_t movingScale_ = kCoarsest;  // the scale of the next coarse picture
+    std::uint32_t movingScale_ = kCoarsest;  // the scale of the next coarse picture, relative to windowScale_
     double speed_ = 0.0;                     // recent samples per second; 0: unknown
     double seconds_ = 0.0;
     Clock::time_point moved_;

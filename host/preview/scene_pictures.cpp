@@ -91,6 +91,7 @@ void ScenePictures::guide(std::shared_ptr<const Guide> guide, const Camera& came
     RenderSettings settings = catchingSettings(loaded_->prepared.flat, settings_);
     settings.guide = std::move(guide);
     guided_ = std::make_unique<Refiner>(guided_ ? *guided_ : *light_, loaded_->prepared, settings);
+    guided_->setWindowScale(windowScale_);
     guided_->showWhole(camera, size);
     isGuided_ = true;
 }
@@ -101,6 +102,7 @@ void ScenePictures::show(const Camera& camera, const glm::uvec2& size)
     if (shown().needsKernels(camera, size)) {
         beforeCompiling_();
     }
+    shown().setWindowScale(windowScale_);
     shown().show(camera, size);
     lightIsStale_ = layer_ == Aov::BvhSteps;
 }

@@ -30,6 +30,8 @@ public:
     // Of pictures that show() starts from now on.
     void setLens(const Lens& lens);
     const Lens& lens() const { return lens_; }
+    // The same.
+    void setWindowScale(std::uint32_t scale) { windowScale_ = scale; }
     bool isEmpty() const { return light_ == nullptr; }
     // Those of the picture of light.
     const RenderSettings& settings() const { return light_->renderer().settings(); }
@@ -57,6 +59,7 @@ private:
     Device& device_;
     RenderSettings settings_;
     Lens lens_;
+    std::uint32_t windowScale_ = 1;  // as of Refiner
     std::function<void()> beforeCompiling_;
     std::unique_ptr<LoadedScene> loaded_;
     std::unique_ptr<Refiner> light_;

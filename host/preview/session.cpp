@@ -6,8 +6,6 @@
 #include "host/message.hpp"
 #include "host/preview/edits_writer.hpp"
 #include "host/preview/pick.hpp"
-#include "host/render/check_memory.hpp"
-#include "host/render/parameters.hpp"
 #include "host/text.hpp"
 #include "host/window/widgets.hpp"
 
@@ -41,7 +39,11 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       changes_(options.load),
       guideInset_(screen_.device())
 {
-    drawer_.resize(glm::max(glm::uvec2(1), window.pictureSize()));
+    if (options.window) {
+        firstSize_.own = options.size;
+    }
+    pictureSize_ = firstSize_;
+    lay(glm::max(glm::uvec2(1), window.pictureSize()));
     if (options.shaders) {
         shaders_.emplace(*options.shaders);
     }
@@ -155,10 +157,7 @@ void Session::takeShaders()
 void Session::enter(std::unique_ptr<LoadedScene> loaded)
 {
     const PreparedScene& prepared = loaded->prepared;
-    RenderSettings settings = catchingSettings(prepared.flat, options_.settings);
-    settings.width = size().x;
-    settings.height = size().y;
-    checkMemory(prepared, settings, screen_.device().description());
+    checkPicture(prepared, size());
     if (!viewpoint_) {
         const Camera& chosen = findCamera(prepared.scene, options_.camera);
         sayIfCameraIsNumber(prepared.scene, options_.camera);
@@ -169,8 +168,12 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
         }
         viewpoint_.emplace(static_cast<std::size_t>(&chosen - prepared.scene.cameras.data()), options_.pose, options_.field,
                            options_.projection);
-        if (!options_.size) {
-            window_.setSize(defaultSize(seen));
+        if (!options_.size && options_.window) {
+            firstSize_.own = defaultSize(seen);
+            pictureSize_ = firstSize_;
+            lay(drawer_.windowSize());
+        } else if (!options_.size) {
+            window_.setSize(glm::round(glm::vec2(defaultSize(seen)) * std::max(1.0F, window_.contentScale())));
         }
     }
     warnIfNoLights(prepared);
@@ -206,18 +209,6 @@ bool Session::canFocus() const
 {
     const Projection::Model model = options_.projection.model;
     return model != Projection::Model::Fisheye && model != Projection::Model::Equirectangular;
-}
-
-void Session::resize()
-{
-    const glm::uvec2 wanted = window_.pictureSize();
-    if (wanted.x == 0 || wanted.y == 0 || wanted == size()) {
-        return;
-    }
-    drawer_.resize(wanted);
-    if (!pictures_.isEmpty()) {
-        show();
-    }
 }
 
 // One step for each picture.
@@ -329,20 +320,22 @@ bool Session::isPresentDue() const
 void Session::present()
 {
     const Clock::time_point start = Clock::now();
+    bool isDrawn = true;
     if (!pictures_.isEmpty()) {
         meter_.measure(pictures_.shown(), pictures_.layer(), isInputWaiting());
         Renderer& renderer = pictures_.shown().renderer();
         drawer_.setTransparent(!pictures_.options().environmentBackground || pictures_.settings().catcher);
+        const auto shouldContinue = [this] { return !isInputWaiting(); };
         if (meter_.errorLayer().isShown()) {
-            drawer_.draw(renderer, meter_.errorLayer(), meter_.look());
+            isDrawn = drawer_.draw(renderer, meter_.errorLayer(), meter_.look(), shouldContinue);
         } else if (const IdleDenoiser::Result* denoised = shownDenoised()) {
             drawer_.draw(renderer, *denoised, meter_.look());
         } else {
-            drawer_.draw(renderer, pictures_.layer(), meter_.range(), meter_.look());
+            isDrawn = drawer_.draw(renderer, pictures_.layer(), meter_.range(), meter_.look(), shouldContinue);
         }
     }
     if (showsGuide()) {
-        const std::optional<glm::uvec2> pixel = mouse_ ? std::optional(pixelAt(*mouse_)) : std::nullopt;
+        const std::optional<glm::uvec2> pixel = mouse_ ? pixelAt(*mouse_) : std::nullopt;
         guideInset_.look(pictures_.shown(), pictures_.scene(), picker_, pixel, size());
     }
     buildPanels();
@@ -353,6 +346,9 @@ void Session::present()
         pacer_.show(hasMoved());
         frames_ += pictures_.isEmpty() ? 0 : 1;
         reportShown();
+    }
+    if (!isDrawn) {
+        pacer_.change();
     }
 }
 
@@ -388,6 +384,7 @@ void Session::handle(const Event& event)
     switch (event.kind) {
     case Kind::Close: closing_ = true; break;
     case Kind::Resize:
+        screen_.takeScale();
         resize();
         pacer_.change();
         break;
@@ -419,7 +416,10 @@ void Session::handleMouse(const Event& event)
     screen_.gui().point(event);
     buildPanels();
     const bool panels = screen_.gui().hasMouse();
-    const std::optional<Gesture> gesture = gestures_.take(event, panels);
+    std::optional<Gesture> gesture = gestures_.take(event, panels);
+    if (gesture) {
+        gesture->motion /= drawer_.viewport().zoom;
+    }
     if (!panels) {
         mouse_ = event.position;
     }
@@ -575,10 +575,11 @@ void Session::chooseCamera(std::size_t index)
 
 void Session::clickAt(const glm::dvec2& position)
 {
-    if (pictures_.isEmpty()) {
+    const std::optional<glm::uvec2> under = pixelAt(position);
+    if (pictures_.isEmpty() || !under) {
         return;
     }
-    const glm::uvec2 pixel = pixelAt(position);
+    const glm::uvec2 pixel = *under;
     const std::optional<Pick> found = picker_.pick(pictures_.shown(), pictures_.scene(), pixel, size());
     if (lens_.choices().focusesByClick) {
         focusOn(found);

@@ -12,6 +12,7 @@
 #include "host/preview/panels.hpp"
 #include "host/preview/pick.hpp"
 #include "host/preview/picture_drawer.hpp"
+#include "host/preview/picture_size.hpp"
 #include "host/preview/picture_writer.hpp"
 #include "host/preview/preview.hpp"
 #include "host/preview/scene_changes.hpp"
@@ -48,15 +49,15 @@ private:
     bool isWhole() const { return !hasMoved() && pictures_.shown().sampleCount() > 0; }
     bool isInputWaiting() const { return hasMoved() || !inbox_.empty() || !events_.isEmpty(); }
     bool showsGuide() const { return showsGuide_ && !pictures_.isEmpty() && panelLevel_ < 2; }
-    glm::uvec2 pixelAt(const glm::dvec2& position) const { return glm::clamp(position, glm::dvec2(0.0), glm::dvec2(size() - 1U)); }
-    glm::uvec2 size() const { return drawer_.size(); }
+    // Nothing beside the picture.
+    std::optional<glm::uvec2> pixelAt(const glm::dvec2& position) const { return glim::pixelAt(drawer_.viewport(), position, size()); }
+    glm::uvec2 size() const { return drawer_.size(); }  // of the picture
 
     // The loop.
     void takeEvents(double seconds);
     void takeScene();
     void takeShaders();
     void enter(std::unique_ptr<LoadedScene> loaded);
-    void resize();
     void step();
     void follow();
     void followScene();
@@ -92,6 +93,12 @@ private:
     void say(const std::string& text);   // shows the text in the window
     void tell(const std::string& text);  // shows the text in the window and prints it to stderr
 
+    // The picture's size.
+    void chooseSize(const PictureSize& wanted);
+    void resize();
+    void lay(const glm::uvec2& window);
+    void checkPicture(const PreparedScene& prepared, const glm::uvec2& size) const;
+
     // The panels over the picture.
     PanelChoices chosen() const;
     PanelChoices layOutPanels(const PanelChoices& before);
@@ -105,6 +112,7 @@ private:
     const PreviewOptions& options_;
     Screen screen_;
     PictureDrawer drawer_;
+    PictureSize firstSize_, pictureSize_;
     SceneLoader loader_;
     std::optional<ShaderLoader> shaders_;
     PictureWriter writer_;

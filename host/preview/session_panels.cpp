@@ -34,6 +34,7 @@ PanelChoices Session::chosen() const
             timeline_.choices(),
             denoises_,
             showsGuide_,
+            pictureSize_,
             surface_ ? surface_->choices : SurfaceChoices(),
             {changes_.options(), dragsSun_},
             meter_.errorLayer().target()};
@@ -43,7 +44,8 @@ PanelChoices Session::chosen() const
 PanelChoices Session::layOutPanels(const PanelChoices& before)
 {
     PanelChoices wanted = before;
-    screen_.gui().frame(size(), [&] {
+    screen_.gui().frame(drawer_.windowSize(), [&] {
+        fillBeside(drawer_.shown());
         const bool isThere = !pictures_.isEmpty();
         const float below = !isThere || panelLevel_ > 0 ? showMessages(messages_.lines()) : 0.0F;
         if (isThere && panelLevel_ == 1) {
@@ -100,6 +102,9 @@ void Session::buildPanels()
     denoises_ = wanted.denoises;
     showsGuide_ = wanted.showsGuide;
     dragsSun_ = wanted.scene.dragsSun;
+    if (wanted.picture != before.picture) {
+        chooseSize(wanted.picture);
+    }
     if (wanted.undo) {
         undo();
     } else if (wanted.surface != before.surface) {
@@ -150,6 +155,7 @@ PanelFigures Session::figures() const
     figures.canDenoise = pictures_.settings().halves;
     figures.denoising = describe(denoiser_, denoises_);
     figures.size = size();
+    figures.sizes = choicesOfSize(firstSize_);
     figures.scale = picture.scale();
     figures.device = screen_.device().description().name;
     figures.layers = layers();

@@ -27,17 +27,22 @@ Display::Display(Device& device)
       layout_(device, slots(), sizeof(DisplayPass), {kBindPicture})
 {}
 
-void Display::resize(std::uint32_t width, std::uint32_t height) { picture_.emplace(device_, "window's picture", width, height); }
-
-const Kernel& Display::getPreview(Aov aov, bool folded, bool composites)
+void Display::resize(const glm::uvec2& window, const glm::uvec2& low, const glm::uvec2& high)
 {
-    const auto found = previews_.find({aov, folded, composites});
-    if (found != previews_.end()) {
+    low_ = low;
+    size_ = high - low;
+    picture_.emplace(device_, "window's picture", window.x, window.y);
+}
+
+const Kernel& Display::getKernel(const Shader& shader)
+{
+    const auto found = kernels_.find(shader);
+    if (found != kernels_.end()) {
         return found->second;
     }
-    Specialization constants = makeConstants(composites ? kFeatureCatcher : 0);
-    constants.insert({{kSpecWorkgroup, kWorkgroup}, {kSpecAov, static_cast<std::uint32_t>(aov)}, {kSpecFolded, folded}});
-    return previews_.emplace(std::tuple(aov, folded, composites), Kernel(layout_, kernels::preview, constants)).first->second;
+    Specialization constants = makeConstants(shader.composites ? kFeatureCatcher : 0);
+    constants.insert({{kSpecWorkgroup, kWorkgroup}, {kSpecAov, static_cast<std::uint32_t>(shader.aov)}, {kSpecFolded, shader.folded}});
+    return kernels_.emplace(shader, Kernel(layout_, shader.means ? kernels::preview_means : kernels::preview, constants)).first->second;
 }
 
 void Display::run(const Kernel& kernel, const Bindings& bindings, const DisplayPass& pass, std::uint64_t threads)
@@ -72,12 +77,15 @@ void Display::takeFolded(const Renderer& renderer)
     }
 }
 
-void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look, std::uint32_t drawn)
+bool Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look, std::uint32_t drawn,
+                   const std::function<bool()>& shouldContinue)
 {
     takeFolded(renderer);
     DisplayPass pass{};
-    pass.width = picture_->width();
-    pass.height = picture_->height();
+    pass.left = low_.x;
+    pass.top = low_.y;
+    pass.width = size_.x;
+    pass.height = size_.y;
     pass.filmWidth = renderer.settings().width;
     pass.filmHeight = renderer.settings().height;
     pass.scale = static_cast<float>(std::exp2(look.exposure));
@@ -86,7 +94,11 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
     pass.high = range.high;
     pass.drawn = drawn;
     const bool anyFolded = renderer.films().foldVersion() != 0, composites = aov == Aov::Radiance && renderer.settings().catcher;
+    const bool means = pass.filmWidth > size_.x || pass.filmHeight > size_.y;
     for (std::size_t i = 0; i < renderer.films().tiles().size(); ++i) {
+        if (means && !shouldContinue()) {
+            return false;
+        }
         const Tile& tile = *renderer.films().tiles()[i];
         // Where there is nothing, a placeholder that the kernel does not read.
         const Buffer& folded = anyFolded ? folded_[i].pixels : tile.pages();
@@ -100,8 +112,10 @@ void Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
                                 {{kBindPicture, &*picture_}});
         pass.tileBegin = tile.begin();
         pass.tileCount = tile.count();
-        run(getPreview(aov, anyFolded, composites), bindings, pass, tile.count());
+        const std::uint64_t covered = std::uint64_t{pass.width} * pass.height;
+        run(getKernel({aov, anyFolded, composites, means}), bindings, pass, means ? covered : tile.count());
     }
+    return true;
 }
 
 }  // namespace glim

@@ -6,14 +6,14 @@
 
 GLIM_SHARED_BEGIN
 
-// How the kernel preview draws the film.
+// How the kernels preview and preview_means draw the film.
 GLIM_CONST uint kDrawnInColor = 0u;
 GLIM_CONST uint kDrawnInGrey = 1u;
 GLIM_CONST uint kDrawnOverCheckers = 2u;  // the surfaces alone, over a checkerboard
 
-// Push constants: a tile of the film, stretched over the window's picture.
+// Push constants: a tile of the film, stretched over a rectangle of the window's picture.
 struct DisplayPass {
-    uint width, height;  // of the picture
+    uint left, top, width, height;  // of the rectangle
     uint filmWidth, filmHeight;
     uint tileBegin, tileCount;  // pixels of the film
     float scale;                // 2^EV, of radiance and albedo

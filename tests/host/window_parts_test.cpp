@@ -2,12 +2,14 @@
 #include "host/error.hpp"
 #include "host/preview/pacer.hpp"
 #include "host/preview/panels.hpp"
+#include "host/preview/picture_size.hpp"
 #include "host/preview/surface_edits.hpp"
 #include "host/view/view_panel.hpp"
 #include "host/window/gestures.hpp"
 #include "host/window/gui.hpp"
 #include "host/window/latency.hpp"
 #include "host/window/notice.hpp"
+#include "host/window/pixels.hpp"
 #include "host/window/script.hpp"
 #include "host/window/widgets.hpp"
 #include "tests/support/edit_file.hpp"
@@ -129,11 +131,63 @@ TEST(ScriptTest, ReadsEveryStep)
     EXPECT_EQ(steps[14].kind, Kind::Close);
 }
 
+TEST(ScriptTest, NamesOfDroppedFilesAreRelativeToItsFolder)
+{
+    const test::ScratchFolder folder;
+    test::writeText(folder / "script", "0 drop two words.glb  # a comment\n0 drop /a/b.hdr\n0 scale 1.5\n");
+    const std::vector<ScriptStep> steps = readScript(folder / "script");
+    ASSERT_EQ(steps.size(), 3U);
+    EXPECT_EQ(steps[0].file, folder / "two words.glb");
+    EXPECT_EQ(steps[1].file, "/a/b.hdr");
+    EXPECT_EQ(steps[2].scale, 1.5F);
+}
+
+// A display that shows two pixels where a screen has one coordinate, and one with a factor that is no whole number.
+TEST(PixelScaleTest, PlacesAndSizesGoBothWays)
+{
+    const PixelScale twice = PixelScale::of({640, 480}, {1280, 960}), odd = PixelScale::of({100, 80}, {150, 120});
+    EXPECT_EQ(twice.toPixels({320.5, 10.0}), glm::dvec2(641.0, 20.0));
+    EXPECT_EQ(twice.toScreen(glm::dvec2(641.0, 20.0)), glm::dvec2(320.5, 10.0));
+    EXPECT_EQ(twice.toScreen(glm::uvec2(1024, 1)), glm::ivec2(512, 1));
+    EXPECT_EQ(odd.toPixels({100.0, 80.0}), glm::dvec2(150.0, 120.0));
+    EXPECT_EQ(odd.toScreen(glm::uvec2(301, 20)), glm::ivec2(201, 13));
+    EXPECT_EQ(PixelScale::of({0, 0}, {0, 0}).toPixels({3.0, 4.0}), glm::dvec2(3.0, 4.0)) << "a hidden window";
+}
+
+TEST(PictureSizeTest, HalfOfAWindowLeavesNoPartOfAPixel)
+{
+    EXPECT_EQ(sizeIn({}, {1601, 901}), glm::uvec2(1601, 901));
+    EXPECT_EQ(sizeIn({{}, 2}, {1601, 901}), glm::uvec2(800, 450));
+    EXPECT_EQ(sizeIn({{}, 2}, {1, 1}), glm::uvec2(1, 1));
+    EXPECT_EQ(sizeIn({glm::uvec2(7, 5)}, {1601, 901}), glm::uvec2(7, 5));
+    EXPECT_EQ(choicesOfSize({}).size(), 6U);
+    EXPECT_EQ(choicesOfSize({glm::uvec2(512, 512)}).size(), 6U);
+    EXPECT_EQ(choicesOfSize({glm::uvec2(7, 5)}).back(), PictureSize{glm::uvec2(7, 5)});
+}
+
 TEST(ScriptTest, NamesTheLineThatIsBad)
 {
-    for (const char* line :
-         {"key V", "-1 key V", "nan key V", "0", "0 jump", "0 key", "0 key VV", "0 key #", "0 drag right 1,2 3,4", "0 drag left 1,2",
-          "0 drag left 1,2 3", "0 scroll up", "0 resize 0x5", "0 resize 1e9x5", "0 samples 0", "0 click 1,2 3", "0 close now"}) {
+    for (const char* line : {"key V",
+                             "-1 key V",
+                             "nan key V",
+                             "0",
+                             "0 jump",
+                             "0 key",
+                             "0 key VV",
+                             "0 key #",
+                             "0 drag right 1,2 3,4",
+                             "0 drag left 1,2",
+                             "0 drag left 1,2 3",
+                             "0 scroll up",
+                             "0 resize 0x5",
+                             "0 resize 1e9x5",
+                             "0 samples 0",
+                             "0 click 1,2 3",
+                             "0 close now",
+                             "0 scale 0",
+                             "0 scale x",
+                             "0 drop",
+                             "0 drop  # a.glb"}) {
         test::expectRefusal<InputError>([&] { read(std::string("0 key A\n") + line + "\n"); }, MessageId::Malformed,
                                         {.file = "/script", .place = "line 2", .value = line});
     }

@@ -17,7 +17,7 @@ static_assert(sizeof(CatcherMoments) == 44 && sizeof(CatcherSums) == 72);
 static_assert(sizeof(MaterialData) == 48 && sizeof(LightNode) == 48 && sizeof(FlatLight) == 80 && sizeof(InstanceData) == 80);
 static_assert(sizeof(PrincipledData) == 64 && sizeof(LayersData) == 96 && sizeof(MediumData) == 32 && sizeof(ScatteringData) == 16 &&
               sizeof(TextureData) == 48);
-static_assert(sizeof(FlatCamera) == 144 && sizeof(DisplayPass) == 44 && sizeof(ViewPass) == 56);
+static_assert(sizeof(FlatCamera) == 144 && sizeof(DisplayPass) == 52 && sizeof(ViewPass) == 56);
 static_assert(sizeof(EverySharedStruct) == 4 * kSharedWords);
 static_assert(sizeof(CoursePass) == 56 && sizeof(RenderParameters) == 308 && sizeof(CourseParameters) == 16);
 static_assert(sizeof(CoursePass) <= 64 && sizeof(DisplayPass) <= 64 && sizeof(ViewPass) <= 64 && sizeof(GuideProbePass) <= 64,

@@ -46,6 +46,9 @@ GlimCall PreviewTest::call(const std::string& script, const std::vector<std::str
     std::ofstream(folder / "script") << (panels ? "" : "0 key H\n0 key H\n") << script;
     GlimCall made;
     made.arguments = {"preview", scene, "--script", "script", "--size", size()};
+    if (window) {
+        made.arguments.insert(made.arguments.end(), {"--window", std::to_string(window->x) + "x" + std::to_string(window->y)});
+    }
     made.arguments.insert(made.arguments.end(), more.begin(), more.end());
     made.environment.insert({{"DISPLAY", screen.name()}, {"GLIM_VALIDATION", "1"}});
     made.folder = folder.path();
@@ -62,11 +65,11 @@ GlimRun PreviewTest::run(const std::string& script, const std::vector<std::strin
 
 Pixels PreviewTest::windowAtWriting(const VirtualScreen& shown, const std::string& script, const std::vector<std::string>& more) const
 {
-    Pixels window(std::size_t{width} * height);  // black if the session fails
+    Pixels seen(std::size_t{windowSize().x} * windowSize().y);  // black if the session fails
     GlimCall session = call(script, more);
     session.environment["DISPLAY"] = shown.name();
-    whenWritten(session, [&] { window = windowOf(shown.calmPixels()); });
-    return window;
+    whenWritten(session, [&] { seen = windowOf(shown.calmPixels()); });
+    return seen;
 }
 
 PreviewTest::Watched PreviewTest::watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more) const

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -37,7 +38,7 @@ protected:
     };
     Watched watch(std::size_t pictures, const std::string& script, const std::vector<std::string>& more = {}) const;
     // The part of the screen that is the window.
-    Pixels windowOf(const Pixels& shown) const { return cornerOf(shown, width, height); }
+    Pixels windowOf(const Pixels& shown) const { return cornerOf(shown, windowSize().x, windowSize().y); }
 
     // What `glim render` makes of the same scene; `options` separated by blanks.
     Film render(const std::string& options) const;
@@ -50,10 +51,12 @@ protected:
     ScratchFolder folder;
     VirtualScreen screen;
     std::string scene = sceneFile("cornell_spheres.gltf");
-    std::uint32_t width = 96, height = 72;
+    std::uint32_t width = 96, height = 72;  // of the picture
+    std::optional<glm::uvec2> window;       // its own size
     bool panels = false;
 
 private:
+    glm::uvec2 windowSize() const { return window.value_or(glm::uvec2(width, height)); }
     std::string size() const { return std::to_string(width) + "x" + std::to_string(height); }
     std::string numbered(int number) const;
 };

@@ -12,7 +12,7 @@
 
 GLIM_SHARED_BEGIN
 
-GLIM_CONST uint kSharedWords = 514u;
+GLIM_CONST uint kSharedWords = 516u;
 
 struct EverySharedStruct {
     PathRay ray;
@@ -136,8 +136,8 @@ F3(instance.column0) U(instance.beginRef) F3(instance.column1) U(instance.firstR
 F3(instance.translation) U(instance.mirrors) F3(instance.errorBound) U(instance.motion)
 F3(motionKey.translation) F(motionKey.time) F3(motionKey.rotation) F(motionKey.rotation.w) F3(motionKey.stretch) F(motionKey.angle)
 F3(motionKey.shear) F(motionKey.inverseSine)
-U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight) U(display.tileBegin) U(display.tileCount)
-F(display.scale) U(display.tone) F(display.low) F(display.high) U(display.drawn)
+U(display.left) U(display.top) U(display.width) U(display.height) U(display.filmWidth) U(display.filmHeight)
+U(display.tileBegin) U(display.tileCount) F(display.scale) U(display.tone) F(display.low) F(display.high) U(display.drawn)
 U(view.width) U(view.firstRow) U(view.rows) U(view.left) U(view.top) U(view.right) U(view.bottom) U(view.shownAs) F(view.scale) U(view.tone)
 F(view.low) F(view.high) F(view.relative) F(view.epsilon)
 F3(noisy.mean) F3(noisy.variance) F3(weighted.radiance) F(weighted.weight)
