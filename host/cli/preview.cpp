@@ -20,7 +20,7 @@ void addWindow(OptionTable& table, WindowOptions& options)
 {
     table.beginGroup("Output");
     addLook(table, options.look, "the window and the PNG", "none; neutral in the built-in studio");
-    table.add("--window", "WxH", "Pixels of the window; the picture keeps its size and is shown scaled [as the picture, which follows it]",
+    table.add("--window", "WxH", "Pixels of a window whose picture keeps its own size [--size; the picture follows]",
               [&options](const OptionValue& value) { options.window = parseSize(value, "--window"); });
     addNumber<std::uint32_t>(table, {"--frames", "N", "Quit after showing this many pictures", 1, 1000000000, "never"},
                              [&options](std::uint32_t frames) { options.frames = frames; });

@@ -30,7 +30,8 @@ Session::Session(Window& window, EventQueue& events, const PreviewOptions& optio
       options_(options),
       screen_(window, options.device),
       drawer_(screen_.device()),
-      loader_(options.scene, options.load, options.split),
+      scene_(options.scene),
+      loader_(std::make_unique<SceneLoader>(options.scene, options.load, options.split)),
       pictures_(screen_.device(), options.settings, options.lens, [this] { announceCompiling(); }),
       lens_(options.lens),
       timeline_({options.load.animation, options.load.at}),
@@ -58,6 +59,7 @@ void Session::run()
         if (shaders_ && !pictures_.isEmpty()) {
             takeShaders();
         }
+        takeDropped();
         if (const auto report = writer_.takeReport(false)) {
             tell(*report);
         }
@@ -108,7 +110,7 @@ void Session::takeEvents(double seconds)
 void Session::takeScene()
 {
     try {
-        if (std::unique_ptr<LoadedScene> loaded = loader_.take()) {
+        if (std::unique_ptr<LoadedScene> loaded = loader_->take()) {
             enter(std::move(loaded));
             messages_.trouble.clear();
         }
@@ -117,13 +119,13 @@ void Session::takeScene()
             throw;
         }
         const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-        messages_.trouble = isMemory ? options_.scene.string() + ": " + memorySentence() : error.what();
+        messages_.trouble = isMemory ? scene_.string() + ": " + memorySentence() : error.what();
         tell(messages_.trouble);
     }
-    const std::string stage = loader_.stage();
+    const std::string stage = dropped_ ? dropped_->stage() : loader_->stage();
     if (stage != messages_.stage) {
         messages_.stage = stage;
-        window_.setTitle("glim: " + (stage.empty() ? options_.scene.filename().string() : stage));
+        window_.setTitle("glim: " + (stage.empty() ? scene_.filename().string() : stage));
         pacer_.change();
     }
 }
@@ -176,19 +178,24 @@ void Session::enter(std::unique_ptr<LoadedScene> loaded)
             window_.setSize(glm::round(glm::vec2(defaultSize(seen)) * std::max(1.0F, window_.contentScale())));
         }
     }
-    warnIfNoLights(prepared);
-    meter_.enter(prepared.scene);
-    learner_.end();
     const bool isFirst = pictures_.isEmpty();
-    pictures_.enter(std::move(loaded));
-    surface_.reset();
-    maps_ = findMaps(options_.scene, changes_.options());
+    exchange(std::move(loaded));
+    maps_ = findMaps(scene_, changes_.options());
     viewpoint_->enter(pictures_.scene().scene);
     timeline_.enter(pictures_.scene().scene.animations);
     if (!isFirst) {
-        tell(options_.scene.string() + " has changed and is loaded again");
+        tell(scene_.string() + " has changed and is loaded again");
     }
     show();
+}
+
+void Session::exchange(std::unique_ptr<LoadedScene> loaded)
+{
+    learner_.end();
+    pictures_.enter(std::move(loaded));
+    surface_.reset();
+    warnIfNoLights(pictures_.scene());
+    meter_.enter(pictures_.scene().scene);
 }
 
 LoadOptions Session::wantedScene() const
@@ -246,7 +253,7 @@ void Session::followScene()
         renewSurface();
         return;
     }
-    loader_.setOptions(wanted);
+    loader_->setOptions(wanted);
     viewpoint_->enter(pictures_.scene().scene);
     renewSurface();
 }
@@ -361,7 +368,7 @@ void Session::reportShown()
 {
     if (!pictures_.isEmpty() && !hasMoved()) {
         const Refiner& picture = pictures_.shown();
-        const bool isLast = !awaitsGuide();
+        const bool isLast = !awaitsGuide() && !dropped_;
         window_.reportShown(isLast ? picture.sampleCount() : 0, isLast && picture.scale() == 1 && picture.isDone(), handledEvents_);
     }
 }
@@ -388,6 +395,7 @@ void Session::handle(const Event& event)
         resize();
         pacer_.change();
         break;
+    case Kind::Drop: drop(event.file); break;
     case Kind::KeyUp:
         if (viewpoint_) {
             viewpoint_->release(event.key);
@@ -623,7 +631,7 @@ void Session::printOptions()
 void Session::writePictures()
 {
     Film film = pictures_.shown().renderer().film();
-    film.sceneFile = options_.scene.string();
+    film.sceneFile = scene_.string();
     film.showsBackground = changes_.options().environmentBackground && film.catcher.empty();
     film.identity.settings += describeCamera(viewpoint_->moved(), viewpoint_->field(), lens_.lens(), options_.projection);
     if (shaders_) {
@@ -635,8 +643,7 @@ void Session::writePictures()
     writes_ = false;
     meter_.expose(film, pictures_.layer());
     const IdleDenoiser::Result* denoised = shownDenoised();
-    writer_.write(options_.scene, std::move(film), pictures_.layer(), meter_.look(),
-                  denoised ? std::optional(denoised->picture) : std::nullopt);
+    writer_.write(scene_, std::move(film), pictures_.layer(), meter_.look(), denoised ? std::optional(denoised->picture) : std::nullopt);
 }
 
 void Session::printSummary() const

@@ -58,6 +58,7 @@ private:
     void takeScene();
     void takeShaders();
     void enter(std::unique_ptr<LoadedScene> loaded);
+    void exchange(std::unique_ptr<LoadedScene> loaded);
     void step();
     void follow();
     void followScene();
@@ -93,6 +94,11 @@ private:
     void say(const std::string& text);   // shows the text in the window
     void tell(const std::string& text);  // shows the text in the window and prints it to stderr
 
+    // What is dropped on the window.
+    void drop(const std::filesystem::path& file);
+    void takeDropped();
+    void enterDropped(std::unique_ptr<LoadedScene> loaded);
+
     // The picture's size.
     void chooseSize(const PictureSize& wanted);
     void resize();
@@ -113,7 +119,9 @@ private:
     Screen screen_;
     PictureDrawer drawer_;
     PictureSize firstSize_, pictureSize_;
-    SceneLoader loader_;
+    std::filesystem::path scene_;
+    std::unique_ptr<SceneLoader> loader_;   // of the present scene
+    std::unique_ptr<SceneLoader> dropped_;  // of one that was dropped and is not there yet; null: none
     std::optional<ShaderLoader> shaders_;
     PictureWriter writer_;
 

@@ -67,7 +67,7 @@ PanelChoices Session::layOutPanels(const PanelChoices& before)
 void Session::announceCompiling()
 {
     messages_.stage = "compiling kernels";  // takeScene() ends it
-    window_.setTitle("glim: " + messages_.stage + " for " + options_.scene.filename().string());
+    window_.setTitle("glim: " + messages_.stage + " for " + scene_.filename().string());
     layOutPanels(chosen());
     layOutPanels(chosen());
     screen_.present(drawer_.picture());
