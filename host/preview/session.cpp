@@ -489,7 +489,7 @@ void Session::pressForScene(char key)
     } else if (key == 'C') {
         printOptions();
     } else if (key == 'J') {
-        tell(writeEdits(options_.scene, listShownOptions(shown())));
+        tell(writeEdits(scene_, listShownOptions(shown())));
     } else if (key == 'K') {
         play();
     } else if (key == 'O') {

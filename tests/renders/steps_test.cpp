@@ -149,11 +149,16 @@ TEST_F(StepsTest, OneRayMeetsWhatTheCameraSees)
 
 // --- what a window shows ---
 
+void draw(Display& display, const Renderer& renderer, Aov aov, const DisplayRange& range, const Look& look)
+{
+    EXPECT_TRUE(display.draw(renderer, aov, range, look, kDrawnInColor, [] { return true; }));
+}
+
 std::vector<Rgb8> shownBy(Display& display)
 {
     const KernelLayout layout(testDevice(), {{kBindResults, BufferKind::Storage}}, 2 * sizeof(uint), {kBindPicture});
     const Kernel kernel(layout, test_kernels::read_picture, {{kSpecWorkgroup, 64}});
-    const uint size[] = {display.width(), display.height()};
+    const uint size[] = {display.picture().width(), display.picture().height()};
     Buffer pixels(testDevice(), "test's pixels", BufferKind::Storage, std::uint64_t{4} * size[0] * size[1]);
     const Bindings bindings(layout, {{kBindResults, &pixels}}, {{kBindPicture, &display.picture()}});
     Commands commands(testDevice());
@@ -181,7 +186,7 @@ int largestDifference(const std::vector<Rgb8>& a, const std::vector<Rgb8>& b)
 TEST_F(StepsTest, AWindowShowsWhatFilesHold)
 {
     Display display(testDevice());
-    display.resize(24, 24);
+    display.resize({24, 24}, {0, 0}, {24, 24});
     for (const std::uint32_t samples : {1U, 40U, 290U}) {
         RenderSettings one = settings;
         one.sampleEnd = samples;
@@ -195,7 +200,7 @@ TEST_F(StepsTest, AWindowShowsWhatFilesHold)
             Renderer& renderer = aov == Aov::BvhSteps ? steps : light;
             const Film film = renderer.film();
             const DisplayRange range = computeRange(film, aov);
-            display.draw(renderer, aov, range, {0.5, Tone::Neutral});
+            draw(display, renderer, aov, range, {0.5, Tone::Neutral});
             std::vector<Rgb8> expected;
             for (const PixelMoments& pixel : film.pixels) {
                 expected.push_back(displayColor(pixel, aov, range, {0.5, Tone::Neutral}));
@@ -213,7 +218,7 @@ TEST_F(StepsTest, AWindowShowsTheCompositeOfShadowCatchers)
     const FlatScene flatCaught = flattened(caught);
     settings.catcher = true;
     Display display(testDevice());
-    display.resize(24, 24);
+    display.resize({24, 24}, {0, 0}, {24, 24});
     for (const std::uint32_t samples : {1U, 40U, 290U}) {
         settings.sampleEnd = samples;
         Renderer renderer(testDevice(), flatCaught, makeCamera(caught, settings), settings);
@@ -224,7 +229,7 @@ TEST_F(StepsTest, AWindowShowsTheCompositeOfShadowCatchers)
         EXPECT_GT(std::ranges::count_if(picture, [](const PixelMoments& pixel) { return pixel.alpha < 0.5F; }), 50) << samples;
         for (const Aov aov : {Aov::Radiance, Aov::Normal, Aov::Depth, Aov::Albedo}) {
             const DisplayRange range = computeRange(film, aov);
-            display.draw(renderer, aov, range, {0.5, Tone::None});
+            draw(display, renderer, aov, range, {0.5, Tone::None});
             std::vector<Rgb8> expected;
             for (const PixelMoments& pixel : aov == Aov::Radiance ? picture : film.pixels) {
                 expected.push_back(displayColor(pixel, aov, range, {0.5, Tone::None}));
@@ -238,13 +243,13 @@ TEST_F(StepsTest, AWindowShowsTheCompositeOfShadowCatchers)
 TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
 {
     Display display(testDevice());
-    display.resize(24, 24);
+    display.resize({24, 24}, {0, 0}, {24, 24});
     settings.sampleEnd = 1;
     settings.pathCapacity = 64;
     Renderer renderer(testDevice(), flat, makeCamera(scene, settings), settings);
     renderer.restart(makeCamera(scene, settings), 3, 3);
     advanceToSamples(renderer);
-    display.draw(renderer, Aov::Albedo, {}, {});
+    draw(display, renderer, Aov::Albedo, {}, {});
     const std::vector<Rgb8> coarse = shownBy(display);
     for (std::size_t i = 0; i < coarse.size(); ++i) {
         EXPECT_EQ(coarse[i], coarse[i / 24 / 8 * 8 * 24 + i % 24 / 8 * 8]) << "blocks of eight";
@@ -252,7 +257,7 @@ TEST_F(StepsTest, AWindowKeepsTheCoarsePictureUnderTheFine)
     renderer.restart(makeCamera(scene, settings), 24, 24);
     advanceToSamples(renderer);
     ASSERT_EQ(renderer.plan().pictureSamples(), 64U);
-    display.draw(renderer, Aov::Albedo, {}, {});
+    draw(display, renderer, Aov::Albedo, {}, {});
     const std::vector<Rgb8> mixed = shownBy(display);
     const Film film = renderer.film();
     for (std::size_t i = 0; i < mixed.size(); ++i) {
