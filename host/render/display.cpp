@@ -93,7 +93,8 @@ bool Display::draw(const Renderer& renderer, Aov aov, const DisplayRange& range,
     pass.low = range.low;
     pass.high = range.high;
     pass.drawn = drawn;
-    const bool anyFolded = renderer.films().foldVersion() != 0, composites = aov == Aov::Radiance && drawn != kDrawnInGrey && renderer.settings().catcher;
+    const bool anyFolded = renderer.films().foldVersion() != 0;
+    const bool composites = aov == Aov::Radiance && drawn != kDrawnInGrey && renderer.settings().catcher;
     const bool means = pass.filmWidth > size_.x || pass.filmHeight > size_.y;
     for (std::size_t i = 0; i < renderer.films().tiles().size(); ++i) {
         if (means && !shouldContinue()) {
