@@ -17,7 +17,7 @@ constexpr double kHalfTurn = 180.0, kZenith = 90.0;                   // degrees
 
 using Choice = std::optional<EnvironmentChoice>;
 
-std::string nameOf(const Choice& choice)
+std::string environmentName(const Choice& choice)
 {
     if (!choice) {
         return "as in the file";
@@ -31,17 +31,17 @@ std::string nameOf(const Choice& choice)
     return "constant";
 }
 
-Choice chooseEnvironment(const std::vector<std::filesystem::path>& maps, Choice chosen)
+Choice environmentCombo(const std::vector<std::filesystem::path>& maps, Choice chosen)
 {
     std::vector<Choice> all{std::nullopt, BuiltInEnvironment::Studio, BuiltInEnvironment::None, glm::vec3(1.0F)};
     all.insert(all.end(), maps.begin(), maps.end());
     if (std::ranges::find(all, chosen) == all.end()) {
         all.push_back(chosen);
     }
-    if (ImGui::BeginCombo("environment", nameOf(chosen).c_str())) {
+    if (ImGui::BeginCombo("environment", environmentName(chosen).c_str())) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));  // two maps may have one name
-            if (ImGui::Selectable(nameOf(all[i]).c_str(), all[i] == chosen)) {
+            if (ImGui::Selectable(environmentName(all[i]).c_str(), all[i] == chosen)) {
                 chosen = all[i];
             }
             ImGui::PopID();
@@ -53,7 +53,7 @@ Choice chooseEnvironment(const std::vector<std::filesystem::path>& maps, Choice 
 
 void changeEnvironment(const SceneFigures& figures, LoadOptions& load)
 {
-    load.environment = chooseEnvironment(figures.maps, load.environment);
+    load.environment = environmentCombo(figures.maps, load.environment);
     if (!figures.hasEnvironment) {
         return;
     }
@@ -84,7 +84,7 @@ void changeSun(SceneChoices& choices)
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput);
 }
 
-std::string chooseVariant(const std::vector<std::string>& variants, std::string chosen)
+std::string variantCombo(const std::vector<std::string>& variants, std::string chosen)
 {
     constexpr const char* kOwn = "the file's own";
     if (ImGui::BeginCombo("variant", chosen.empty() ? kOwn : chosen.c_str())) {
@@ -156,7 +156,7 @@ SceneChoices showScene(const SceneFigures& figures, SceneChoices choices)
         changeEnvironment(figures, choices.load);
         changeSun(choices);
         if (!figures.variants.empty()) {
-            choices.load.variant = chooseVariant(figures.variants, choices.load.variant);
+            choices.load.variant = variantCombo(figures.variants, choices.load.variant);
         }
         changeFloor(choices.load);
     }
