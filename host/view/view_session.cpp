@@ -318,7 +318,7 @@ void ViewSession::draw()
         }
         painter_.setValues(under_[side]);
         if (isTransparent) {
-            layUnder(alphas_[side], viewport_, painter_.size(), averages, under_[1 - side]);
+            layUnder({films_.size(), alphas_[side].radiance}, viewport_, painter_.size(), averages, under_[1 - side]);
         }
         if (differs || isTransparent) {
             painter_.setReference(under_[isTransparent ? 1 - side : 1]);
