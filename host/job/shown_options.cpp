@@ -70,9 +70,9 @@ void listSet(const std::vector<Edit>& edits, std::vector<ShownOption>& options)
 // Every member of LoadOptions is named here, so that a new one does not compile before it is listed.
 void listScene(const LoadOptions& load, std::vector<ShownOption>& options)
 {
-    const auto& [scene, environment, environmentRotation, environmentStrength, environmentBackground, sun, showsBackFaces, pointRadius, lineRadius,
-                 missingTextures, confined, maxTexture, variant, at, shutter, animation, aspectRatio, yfov, framed, floor, lightGroups,
-                 catchers, edits, additions] = load;
+    const auto& [scene, environment, environmentRotation, environmentStrength, environmentBackground, sun, showsBackFaces, pointRadius,
+                 lineRadius, missingTextures, confined, maxTexture, variant, at, shutter, animation, aspectRatio, yfov, framed, floor,
+                 lightGroups, catchers, edits, additions] = load;
     static_cast<void>(aspectRatio);  // by --size,
     static_cast<void>(yfov);         // --fov,
     static_cast<void>(framed);       // and --camera

@@ -69,5 +69,4 @@ bool hides(const Edit& edit);
 // `edits` with another one, in place of that of the same pointer.
 std::vector<Edit> withEdit(std::vector<Edit> edits, const Edit& edit);
 
-
 }  // namespace glim

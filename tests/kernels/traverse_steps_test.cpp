@@ -58,7 +58,7 @@ std::vector<PathRay> uniformLines(const Box& box, std::size_t count)
     return rays;
 }
 
-std::vector<Result> trace(KernelTest& test, const std::vector<PathRay>& rays)
+std::vector<Result> trace(KernelRun& test, const std::vector<PathRay>& rays)
 {
     test.cases(rays).resultsOf<Result>(rays.size()).run();
     return test.results<Result>();

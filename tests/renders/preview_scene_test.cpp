@@ -25,7 +25,8 @@ protected:
     {
         std::vector<std::string> options{"--spp", "1"};
         options.insert(options.end(), more.begin(), more.end());
-        const GlimRun session = run("0 samples 1\n0 click 389,471\n0.2 samples 1\n" + script + "0.3 samples 1\n0 key C\n0 key P\n0 close\n", options);
+        const GlimRun session =
+            run("0 samples 1\n0 click 389,471\n0.2 samples 1\n" + script + "0.3 samples 1\n0 key C\n0 key P\n0 close\n", options);
         EXPECT_EQ(session.err.find("loaded again"), std::string::npos);
         const std::string printed = firstLine(session.out);
         EXPECT_TRUE(sameBits(film(1), render("--spp 1 " + printed))) << printed;
@@ -35,7 +36,8 @@ protected:
 
 TEST_F(PreviewSceneTest, TurnsScalesAndHidesTheEnvironment)
 {
-    const std::string options = change("0 drag left 420,348 500,348\n0 drag left 430,371 480,371\n0.2 click 395,394\n", {"--environment", "studio"});
+    const std::string options =
+        change("0 drag left 420,348 500,348\n0 drag left 430,371 480,371\n0.2 click 395,394\n", {"--environment", "studio"});
     EXPECT_NE(options.find(" --environment studio "), std::string::npos) << options;
     EXPECT_NE(options.find(" --environment-rotation "), std::string::npos) << options;
     EXPECT_NE(options.find(" --environment-strength "), std::string::npos) << options;
@@ -45,7 +47,8 @@ TEST_F(PreviewSceneTest, TurnsScalesAndHidesTheEnvironment)
 // One drag is one change to be undone.
 TEST_F(PreviewSceneTest, DragsTheSunAndUndoesIt)
 {
-    const std::string drags = "0 click 395,417\n0.3 click 458,348\n0.2 drag left 300,200 360,180\n0.2 drag left 300,200 360,180\n0.2 samples 1\n";
+    const std::string drags =
+        "0 click 395,417\n0.3 click 458,348\n0.2 drag left 300,200 360,180\n0.2 drag left 300,200 360,180\n0.2 samples 1\n";
     const std::string twice = change(drags, {"--environment", "studio"});
     EXPECT_NE(twice.find(" --sun 90,60,3"), std::string::npos) << twice;
     removePictures();

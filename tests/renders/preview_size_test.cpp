@@ -3,9 +3,9 @@
 #include "host/preview/picture_drawer.hpp"
 #include "host/preview/scene_pictures.hpp"
 #include "host/render/aov.hpp"
+#include "tests/harness/test_device.hpp"
 #include "tests/support/expect_message.hpp"
 #include "tests/support/preview_fixture.hpp"
-#include "tests/support/test_device.hpp"
 
 #include <algorithm>
 
@@ -37,7 +37,7 @@ TEST_F(PreviewTest, APictureLargerThanTheWindowIsShownByItsMeans)
 {
     width = 384;
     height = 288;
-    window = {96, 72};
+    ownWindow = {96, 72};
     const Pixels shown = windowAtWriting(screen, "0 samples 2\n0 key P\n", {"--spp", "2"});
     const Film expected = render("--spp 2");
     EXPECT_TRUE(sameBits(film(1), expected));
@@ -52,7 +52,7 @@ TEST_F(PreviewTest, AFilmOfSeveralTilesIsShownByItsMeans)
 {
     width = 1200;
     height = 900;  // 31,424 pixels more than a tile
-    window = {240, 180};
+    ownWindow = {240, 180};
     const Pixels shown = windowAtWriting(screen, "0 samples 1\n0 key P\n", {"--spp", "1", "--bounces", "1"});
     const Film made = film(1);
     EXPECT_TRUE(sameBits(made, render("--spp 1 --bounces 1")));
@@ -65,7 +65,7 @@ TEST_F(PreviewTest, AFilmOfSeveralTilesIsShownByItsMeans)
 TEST_F(PreviewTest, ASmallerPictureIsMagnifiedByWholeSteps)
 {
     width = height = 48;
-    window = {200, 100};
+    ownWindow = {200, 100};
     const Pixels shown = windowAtWriting(screen, "0 samples 4\n0 key P\n", {"--spp", "4"});
     const Pixels made = picture(1);
     ASSERT_EQ(shown.size(), std::size_t{200} * 100);
@@ -91,7 +91,7 @@ TEST_F(PreviewTest, TheMouseMovesWhatItIsOver)
     height = 72;
     const std::string ends = "0 scroll 1\n0 key C\n0 close\n";
     const std::string plain = run("0 samples 1\n0 drag left 2,20 42,30\n0 drag middle 40,40 20,28\n" + ends, {"--spp", "1"}).out;
-    window = {300, 144};  // 54 pixels beside it
+    ownWindow = {300, 144};  // 54 pixels beside it
     const std::string scaled = run("0 samples 1\n0 drag left 58,40 138,60\n0 drag middle 134,80 94,56\n" + ends, {"--spp", "1"}).out;
     EXPECT_EQ(scaled, plain);
     EXPECT_NE(plain.find("--look-from"), std::string::npos);
@@ -100,7 +100,7 @@ TEST_F(PreviewTest, TheMouseMovesWhatItIsOver)
 // Without --size the picture has the size that fits the camera.
 TEST_F(PreviewTest, TheWindowAloneLeavesThePictureToTheCamera)
 {
-    window = {96, 72};
+    ownWindow = {96, 72};
     GlimCall session = call("0 samples 1\n0 key C\n0 close\n", {"--spp", "1"});
     session.arguments.erase(session.arguments.begin() + 4, session.arguments.begin() + 6);
     const GlimRun done = runGlim(session);

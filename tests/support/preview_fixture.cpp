@@ -1,6 +1,7 @@
 #include "tests/support/preview_fixture.hpp"
 
 #include "host/image/png.hpp"
+#include "host/render/aov.hpp"
 #include "host/render/composite.hpp"
 #include "host/render/film_file.hpp"
 #include "shaders/shared/display_colors.h"
@@ -46,8 +47,8 @@ GlimCall PreviewTest::call(const std::string& script, const std::vector<std::str
     std::ofstream(folder / "script") << (panels ? "" : "0 key H\n0 key H\n") << script;
     GlimCall made;
     made.arguments = {"preview", scene, "--script", "script", "--size", size()};
-    if (window) {
-        made.arguments.insert(made.arguments.end(), {"--window", std::to_string(window->x) + "x" + std::to_string(window->y)});
+    if (ownWindow) {
+        made.arguments.insert(made.arguments.end(), {"--window", std::to_string(ownWindow->x) + "x" + std::to_string(ownWindow->y)});
     }
     made.arguments.insert(made.arguments.end(), more.begin(), more.end());
     made.environment.insert({{"DISPLAY", screen.name()}, {"GLIM_VALIDATION", "1"}});

@@ -52,11 +52,11 @@ protected:
     VirtualScreen screen;
     std::string scene = sceneFile("cornell_spheres.gltf");
     std::uint32_t width = 96, height = 72;  // of the picture
-    std::optional<glm::uvec2> window;       // its own size
+    std::optional<glm::uvec2> ownWindow;    // absent: the picture's size
     bool panels = false;
 
 private:
-    glm::uvec2 windowSize() const { return window.value_or(glm::uvec2(width, height)); }
+    glm::uvec2 windowSize() const { return ownWindow.value_or(glm::uvec2(width, height)); }
     std::string size() const { return std::to_string(width) + "x" + std::to_string(height); }
     std::string numbered(int number) const;
 };
