@@ -4,24 +4,9 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 
 namespace glim::test {
 namespace {
-
-// The lines of options that C printed.
-std::vector<std::string> printedOptions(const GlimRun& session)
-{
-    std::istringstream out(session.out);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(out, line);) {
-        if (line.starts_with("--camera")) {
-            lines.push_back(line);
-        }
-    }
-    return lines;
-}
 
 // The number after an option; fails if it is not there.
 double numberAfter(const std::string& option, const std::string& options)

@@ -3,7 +3,6 @@
 #include "tests/support/preview_fixture.hpp"
 
 #include <fstream>
-#include <sstream>
 
 namespace glim::test {
 namespace {
@@ -87,11 +86,19 @@ TEST_F(PreviewSceneTest, OpensAnotherEnvironment)
     EXPECT_NE(options.find("sky.hdr"), std::string::npos) << options;
 }
 
-// The points, which are chosen by a click, are hidden; then the triangle is isolated, and all shows again.
+// The points are chosen by a click.
 TEST_F(PreviewSceneTest, HidesAndIsolates)
 {
-    const std::string options = change("", {"--environment", "studio"});
-    EXPECT_TRUE(options.ends_with(" --environment studio")) << options;
+    const std::string click = "0 samples 1\n0 click 420,200\n0.3 samples 1\n", hide = "0 click 26,332\n", isolate = "0 click 80,332\n";
+    const std::string showAll = "0 click 175,332\n", print = "0.3 samples 1\n0 key C\n0 key P\n";
+    const GlimRun session = run(click + isolate + print + showAll + print + hide + print + "0 key Z\n" + print + "0 close\n",
+                                {"--spp", "1", "--environment", "studio"});
+    const std::string own = "--camera 0 --size 640x480 --environment studio", invisible = "/extensions/KHR_node_visibility/visible=false";
+    const std::vector<std::string> expected{own + " --set /nodes/0" + invisible, own, own + " --set /nodes/2" + invisible, own};
+    EXPECT_EQ(printedOptions(session), expected);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_TRUE(sameBits(film(static_cast<int>(i) + 1), render("--spp 1 " + expected[i]))) << i;
+    }
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST_F(PreviewTest, APictureLargerThanTheWindowIsShownByItsMeans)
     const Pixels shown = windowAtWriting(screen, "0 samples 2\n0 key P\n", {"--spp", "2"});
     const Film expected = render("--spp 2");
     EXPECT_TRUE(sameBits(film(1), expected));
-    EXPECT_EQ(countOthers(shown, shownSmaller(expected, *window)), 0);
+    EXPECT_EQ(countOthers(shown, shownSmaller(expected, *ownWindow)), 0);
     removePictures();
     const GlimRun session = run("0 samples 2\n0 resize 200x50\n0.3 samples 2\n0 key C\n0 key P\n0 close\n", {"--spp", "2"});
     EXPECT_EQ(firstLine(session.out), "--camera 0 --size 384x288");
@@ -56,7 +56,7 @@ TEST_F(PreviewTest, AFilmOfSeveralTilesIsShownByItsMeans)
     const Pixels shown = windowAtWriting(screen, "0 samples 1\n0 key P\n", {"--spp", "1", "--bounces", "1"});
     const Film made = film(1);
     EXPECT_TRUE(sameBits(made, render("--spp 1 --bounces 1")));
-    const Pixels expected = shownSmaller(made, *window);
+    const Pixels expected = shownSmaller(made, *ownWindow);
     EXPECT_LE(countOthers(shown, expected), 240) << "the row that has parts of both tiles";
     EXPECT_GE(countOthers(shown, expected), 0);
 }

@@ -159,6 +159,18 @@ int countOthers(const Pixels& a, const Pixels& b)
     return a.size() == b.size() ? others : -1;
 }
 
+std::vector<std::string> printedOptions(const GlimRun& session)
+{
+    std::istringstream out(session.out);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(out, line);) {
+        if (line.starts_with("--camera")) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
 std::string firstLine(const std::string& out) { return out.substr(0, out.find('\n')); }
 
 }  // namespace glim::test

@@ -68,6 +68,8 @@ Pixels overCheckerboard(const Film& film);
 // if the sizes differ.
 int countOthers(const Pixels& a, const Pixels& b);
 
+// The lines of options that C printed.
+std::vector<std::string> printedOptions(const GlimRun& session);
 // The first line that a session printed: the camera's options, as C prints them.
 std::string firstLine(const std::string& out);
 
