@@ -10,6 +10,7 @@ constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWin
 constexpr float kOpacity = 0.8F;
 constexpr float kExposureRange = 10.0F;               // stops to either side of 0
 constexpr float kWidth = 17.0F;                       // of the controls, in heights of the font
+constexpr float kClosedWidth = 8.0F;                  // of a side panel's title, the same
 constexpr float kMessageWidth = 40.0F;                // the same
 constexpr ImU32 kBeside = IM_COL32(51, 51, 51, 255);  // as `glim view` has it
 constexpr float kSmallest = 0.25F;                    // of the help's text, relative to the font
@@ -51,7 +52,11 @@ bool beginSidePanel(const char* title)
 {
     ImGui::SetNextWindowPos(ImGui::GetIO().DisplaySize, ImGuiCond_Always, {1.0F, 1.0F});
     ImGui::SetNextWindowCollapsed(true, ImGuiCond_FirstUseEver);
-    return beginControls(title);
+    const bool shows = beginControls(title);
+    if (!shows) {
+        ImGui::SetWindowSize({kClosedWidth * ImGui::GetFontSize(), ImGui::GetWindowHeight()});
+    }
+    return shows;
 }
 
 void endPanel()

@@ -56,10 +56,10 @@ TEST_F(PreviewTest, ShowsTheErrorAgainstTheTarget)
 TEST_F(PreviewTest, TheTargetIsChosenInThePanel)
 {
     width = 100;
-    height = 420;
+    height = 470;
     panels = true;
     for (const auto& [end, target] : {std::pair("1", 1e-6), {"300", 1.0}}) {
-        const std::string drag = std::string("0.3 drag left 60,397 ") + end + ",397\n";
+        const std::string drag = std::string("0.3 drag left 60,420 ") + end + ",420\n";
         const Pixels shown = windowAtWriting(
             screen, "0 samples 64\n" + kToErrors + "0.1 samples 64\n" + drag + "0.3 key H\n0 key H\n0.1 samples 64\n0 key P\n",
             {"--spp", "64", "--bounces", "1"});

@@ -25,7 +25,7 @@ protected:
         std::vector<std::string> options{"--spp", "1"};
         options.insert(options.end(), more.begin(), more.end());
         const GlimRun session =
-            run("0 samples 1\n0 click 389,471\n0.2 samples 1\n" + script + "0.3 samples 1\n0 key C\n0 key P\n0 close\n", options);
+            run("0 samples 1\n0 click 547,471\n0.2 samples 1\n" + script + "0.3 samples 1\n0 key C\n0 key P\n0 close\n", options);
         EXPECT_EQ(session.err.find("loaded again"), std::string::npos);
         const std::string printed = firstLine(session.out);
         EXPECT_TRUE(sameBits(film(1), render("--spp 1 " + printed))) << printed;

@@ -215,7 +215,7 @@ TEST_F(PreviewTest, ThePanelChangesTheSurfaceThatWasClicked)
     height = 320;
     panels = true;
     const GlimRun session =
-        run("0 samples 1\n0 click 460,160\n0.2 drag left 20,246 240,246\n0.2 samples 1\n0 key C\n0 key J\n0 key P\n"
+        run("0 samples 1\n0 click 460,160\n0.2 drag left 20,259 240,259\n0.2 samples 1\n0 key C\n0 key J\n0 key P\n"
             "0.2 key Z\n0.2 samples 1\n0 key P\n0 close\n",
             {"--spp", "1"});
     const std::size_t option = session.out.find(" --set /materials/");
