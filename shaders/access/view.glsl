@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform ViewBlock { ViewPass pass; };
 layout(local_size_x_id = kSpecWorkgroup) in;
 
 layout(set = 0, binding = kBindViewed, scalar) readonly buffer ViewedBuffer { vec3 viewed[]; };
-layout(set = 0, binding = kBindReference, scalar) readonly buffer ReferenceBuffer { vec3 getReferencePath[]; };
+layout(set = 0, binding = kBindReference, scalar) readonly buffer ReferenceBuffer { vec3 referenceValues[]; };
 layout(set = 0, binding = kBindPicture, rgba8) writeonly uniform image2D picture;
 
 #endif

@@ -13,7 +13,7 @@ vec3 colorAt(uvec2 at, uint index)
         return kAroundFilm;
     }
     bool needsReference = pass.shownAs == kShownAsDifference || pass.shownAs == kShownAsSurfaces;
-    return viewColor(viewed[index], needsReference ? getReferencePath[index] : vec3(0.0), at, pass);
+    return viewColor(viewed[index], needsReference ? referenceValues[index] : vec3(0.0), at, pass);
 }
 
 void main()

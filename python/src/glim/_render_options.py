@@ -31,6 +31,9 @@ class RenderOptions(TypedDict, total=False):
     environment_rotation: float
     """Rotation of the map about the vertical axis, -360 to 360 [0]"""
 
+    environment_strength: float
+    """Multiplies the radiance of the environment, 0 to 1e+06 [1]"""
+
     environment_background: Union[bool, Literal["off", "on"]]
     """Whether the camera sees the environment: on or off [on]"""
 
