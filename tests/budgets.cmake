@@ -127,6 +127,10 @@ set(onlyInCi
     CompressedScene.*
     # Sessions of windows, in which seconds pass. By default: the panels, keys and pictures of a few.
     PreviewTest.*
+    PreviewSceneTest.*
+    PreviewTimeTest.*
+    PreviewShadersTest.*
+    PreviewEditsTest.*
     ViewWindowTest.*
     # Many processes of glim, or long ones. By default: the rest of the command line, and the options' table and texts (host/).
     CommandLineTest.SuspectsAreReplayedToTheSameBits
@@ -243,6 +247,8 @@ set(byDefault
     Blurs/DenoisedErrorTest.IsUnbiasedAndItsIntervalHolds/7
     PreviewTest.ShowsAndWritesWhatARenderGives
     PreviewTest.KeyboardAndMouseOfTheScreen
+    PreviewSceneTest.ChoosesAVariant
+    PreviewTimeTest.KeyPlaysAndPauses
     ViewWindowTest.PrintsWhatIsClicked
 )
 # These count the pictures of a second, which are few under the sanitizer of threads.

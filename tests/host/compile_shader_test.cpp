@@ -79,7 +79,7 @@ TEST_F(CompileShaderTest, WhatHasNoLineHasTheKernel)
     expectTrouble(kernels::preview,
                   "kernels/preview.comp: error: Linking compute stage: Missing entry point: Each stage requires one entry point");
     replace("kernels/preview.comp", "void mine()", "void main()");
-    replace("kernels/preview.comp", "vec4(displayColor(", "vec4(fma(vec3(1.0), vec3(float(pixel)), vec3(1.0)) + displayColor(");
+    replace("kernels/preview.comp", "vec4(overCheckers(", "vec4(fma(vec3(1.0), vec3(float(pixel)), vec3(1.0)) + overCheckers(");
     expectTrouble(kernels::preview, "kernels/preview.comp: error: uses fma(), which a driver may leave unfused");
     std::filesystem::remove(shaders_ / "kernels/preview.comp");
     expectTrouble(kernels::preview, "kernels: error: there is no preview.comp");
